@@ -257,10 +257,12 @@ static struct gap separation(const struct fbd_model *model, const struct tree_wo
 static int closed_couplings(const struct fbd_model *model, const struct instant *at, int index, int *coupling)
 {
     const struct meeting *meeting = &model->tree->meetings[index];
-    const int end = meeting->first_coupling + meeting->coupling_count;
     int count = 0;
-    for (int i = meeting->first_coupling; i < end; i++)
-        if (coupling_is_closed(model, at, i)) *coupling = i, count++;
+    for (int k = 0; k < meeting->coupling_count; k++) {
+        if (!coupling_is_closed(model, at, meeting->first_coupling + k)) continue;
+        *coupling = meeting->first_coupling + k;
+        count++;
+    }
     return count;
 }
 
@@ -302,8 +304,7 @@ struct gap meeting_probe(const struct fbd_model *model, const struct instant *at
     const struct meeting *meeting = &model->tree->meetings[index];
     const struct contact_shape *a = &meeting->shape[0], *b = &meeting->shape[1];
     int coupling = -1, closed = closed_couplings(model, at, index, &coupling);
-    const bool gone = at->tree->couplings[meeting->first_coupling].gone;
-    if (gone || closed == meeting->coupling_count) return nothing;
+    if (meeting_is_gone(at->tree, meeting) || closed == meeting->coupling_count) return nothing;
     if (meeting->stop != 0) return feature_gap(model, at->tree, index, 0);
     if (b->kind == contact_line) {
         if (closed > 0 && at->tree->couplings[coupling].feature == probe) return nothing;
@@ -430,7 +431,7 @@ int meeting_touching(const struct fbd_model *model, const struct tree_work *work
     const struct meeting *meeting = &model->tree->meetings[index];
     const struct contact_shape *a = &meeting->shape[0], *b = &meeting->shape[1];
     struct outermost found = {0};
-    if (work->couplings[meeting->first_coupling].gone) return 0;
+    if (meeting_is_gone(work, meeting)) return 0;
     if (meeting->thin) return thin_touching(model, work, index, near, features);
     if (meeting->stop != 0) {
         if (fabs(feature_gap(model, work, index, 0).x) <= near) consider(&found, 0, 0);

@@ -12,13 +12,21 @@
 #ifndef FBD_DYNAMICS_CONTACT_H
 #define FBD_DYNAMICS_CONTACT_H
 
+#include "dynamics/constraint.h"
 #include "dynamics/instant.h"
 #include "dynamics/state.h"
+#include "dynamics/tree.h"
 
 struct gap {
     double x, rate;
     int feature;
 };
+
+/* Has the contact of this pair ended? */
+static inline bool meeting_is_gone(const struct tree_work *work, const struct meeting *meeting)
+{
+    return work->couplings[meeting->first_coupling].gone;
+}
 
 /* The gap of one feature of contact pair `index`, which is also the argument of the functions below. */
 struct gap feature_gap(const struct fbd_model *model, const struct tree_work *work, int index, int feature);

@@ -104,7 +104,7 @@ static struct rated size_of_couplings(const struct view *view, const struct mode
     return sum;
 }
 
-/* ---- springs and dampers */
+/* ---- springs, dampers and actuators */
 
 /* The other end of the load relative to its point: position, velocity and acceleration. */
 static void ends_apart(const struct view *view, const struct model_load *load, struct vec d[3])
@@ -122,6 +122,18 @@ static void ends_apart(const struct view *view, const struct model_load *load, s
     d[2] = a;
 }
 
+/* k (l - l_0) + c l', or the given one of an actuator. */
+static struct rated tension_of(const struct view *view, const struct model_load *load, double l, double rate,
+                               double second)
+{
+    const double k = load->source->stiffness, c = load->source->coefficient;
+    if (load->source->kind != load_actuator)
+        return (struct rated){k * (l - load->source->free_length) + c * rate, k * rate + c * second};
+    struct rated pull = {formula_value(&load->value, view->at), 0};
+    if (view->along) formula_along(&load->value, view->at, view->along, &pull.rate);
+    return pull;
+}
+
 /* l' = u . d', l'' = (d' . d' - l'^2) / l + u . d'' with u = d / l. */
 static struct rated_force force_of_spring(const struct view *view, const struct model_load *load,
                                           struct rated *tension)
@@ -134,8 +146,7 @@ static struct rated_force force_of_spring(const struct view *view, const struct 
     if (!(l > 0)) return force;
     const struct vec u = vec_scale(1 / l, d[0]);
     const double rate = vec_dot(u, d[1]), second = (vec_dot(d[1], d[1]) - rate * rate) / l + vec_dot(u, d[2]);
-    const double k = load->source->stiffness, c = load->source->coefficient;
-    *tension = (struct rated){k * (l - load->source->free_length) + c * rate, k * rate + c * second};
+    *tension = tension_of(view, load, l, rate, second);
     const struct vec turn = vec_scale(1 / l, vec_sub(d[1], vec_scale(rate, u)));
     force.f = vec_scale(tension->x, u);
     force.rate = vec_add(vec_scale(tension->rate, u), vec_scale(tension->x, turn));

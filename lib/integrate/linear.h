@@ -99,6 +99,10 @@ bool linear_pace_start(struct linear_pace *pace, struct counted_system *system, 
 /* The size of a step from t. */
 double linear_pace_step(const struct linear_pace *pace, double t);
 
+/* The longest step of a motion that need not be resolved: any, or that in which the fastest growing mode grows e-fold, so
+ * that an overflow is located. */
+double linear_pace_leap(const struct linear_pace *pace);
+
 /* The largest |l| of the eigenvalues whose motion has not died out at t. */
 double linear_pace_rate(const struct linear_pace *pace, double t);
 

@@ -140,3 +140,15 @@ double linear_pace_step(const struct linear_pace *pace, double t)
     frexp(longest * rho * (1 + rounded_reach), &doublings); /* 2^(doublings - 1) <= longest rho */
     return scalbn(1 / rho, doublings > 0 ? doublings - 1 : 0);
 }
+
+static double growth(gsl_complex l)
+{
+    return fmax(0, GSL_REAL(l));
+}
+
+double linear_pace_leap(const struct linear_pace *pace)
+{
+    if (!pace->now) return linear_pace_step(pace, pace->start);
+    double fastest_growth = fastest(pace, pace->start, growth);
+    return fastest_growth > 0 ? 1 / fastest_growth : HUGE_VAL;
+}

@@ -67,16 +67,16 @@ void run_wake_contacts(struct run *run, double end)
     impulse_look(trial);
     for (int i = 0; i < tree_of(run)->meeting_count; i++) {
         struct distance at = meeting_distance(run->model, trial->tree, i);
-        bool gone = trial->tree->couplings[tree_of(run)->meetings[i].first_coupling].gone;
-        work->asleep[i] = gone || at.apart > speeds * span * at.speed;
+        work->asleep[i] =
+            meeting_is_gone(trial->tree, &tree_of(run)->meetings[i]) || at.apart > speeds * span * at.speed;
     }
     memcpy(trial->y, run->work.y, plan_size(&run->model->plan) * sizeof *trial->y);
     trial->t = end;
     impulse_look(trial);
     for (int i = 0; i < tree_of(run)->meeting_count; i++) {
         struct distance at = meeting_distance(run->model, trial->tree, i);
-        bool gone = trial->tree->couplings[tree_of(run)->meetings[i].first_coupling].gone;
-        work->asleep[i] &= gone || at.apart > speeds * span * at.speed;
+        work->asleep[i] &=
+            meeting_is_gone(trial->tree, &tree_of(run)->meetings[i]) || at.apart > speeds * span * at.speed;
     }
 }
 

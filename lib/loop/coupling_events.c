@@ -20,6 +20,7 @@
 #include "dynamics/impulse.h"
 #include "dynamics/project.h"
 #include "loop/run.h"
+#include "numeric/tolerances.h"
 
 /* ---- the end */
 
@@ -59,17 +60,15 @@ static double reach_of(const struct run *run)
 /* Do the positions fit, to the accuracy of numbers in a file? A rope may be longer than its path. */
 static bool fits(struct run *run, int index, int watch)
 {
-    const double level = 1e-8;
     const struct coupling *coupling = &run->model->tree->couplings[index];
     const struct row *rows = &run->state->tree->rows[coupling->first_row];
     const double sign = coupling->kind == constraint_rope ? 1 : 0;
     double off = 0;
     for (int k = 0; k < coupling->row_count; k++) off = hypot(off, sign * rows[k].g.x < 0 ? 0 : rows[k].g.x);
-    if (off <= level * reach_of(run)) return true;
+    if (off <= contact_level * reach_of(run)) return true;
     run_fail(run, FBD_BROKEN,
              "at t = %.9g the coupling `%s` begins (%s), and does not fit: it is off by %.6g %s. Let it "
-             "begin where "
-             "its ends fit",
+             "begin where its ends fit",
              run_time(run), coupling->name, run->model->plan.watches[watch].source->text, off,
              run->model->scene->units == unit_si ? "m" : "ft");
     return false;
@@ -164,8 +163,8 @@ static void begin_coupling(struct run *run, int watch)
         run_fail(
             run, FBD_BROKEN,
             "at t = %.9g the coupling `%s` begins by an impact, of which the friction `%s` of a guide would "
-            "take "
-            "its share: this is not computed. Give the guide no friction, or end the run earlier by an event",
+            "take its share: this is not computed. Give the guide no friction, or end the run earlier by an "
+            "event",
             run_time(run), coupling->name, guide);
         return;
     }

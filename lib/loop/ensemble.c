@@ -356,7 +356,8 @@ static void scatter_modes(const struct group *group, const struct fbd_state *par
     }
 }
 
-/* The couplings that have begun or ended, with the references of those that begin. Those of one constraint are successive, here and in the whole. */
+/* The couplings that have begun or ended, with the references of those that begin. Those of one constraint are successive,
+ * here and in the whole. */
 static void scatter_ends(const struct group *group, const struct fbd_state *part, struct fbd_state *state)
 {
     const struct tree *tree = group->model->tree, *whole = state->model->tree;

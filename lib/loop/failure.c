@@ -142,8 +142,8 @@ void run_fail_pole(struct run *run, const struct pole *pole)
     if (load->zero_distance.expr && pole->formula.expr == load->zero_distance.expr) {
         run_fail(run, FBD_FAILED,
                  "at t = %.9g the two points of the actuator `%s` meet, to the rounding of the time: its "
-                 "force has "
-                 "no direction there. End the run before by an event, or give it a direction by `along`",
+                 "force has no direction there. End the run before by an event, or give it a direction by "
+                 "`along`",
                  run_time(run), load->name);
         return;
     }

@@ -166,8 +166,8 @@ struct run {
     bool lazy;        /* no step needs the forces of `state` at its end */
     bool plain;       /* nor can a step be cut or projected: no events and couplings */
     bool undisturbed; /* nor can a step be cut: no events, and couplings without limits */
-    bool leaps;       /* plain and linear, and works follow from potentials: one step is enough */
-    bool stale;       /* the forces have not been evaluated at the time of `state` */
+    bool leaps; /* plain and linear, and works follow from potentials: steps need not resolve the motion */
+    bool stale; /* the forces have not been evaluated at the time of `state` */
 
     struct counted_system system;
     struct rates *rates; /* in the modes of `during` */
@@ -211,7 +211,7 @@ static inline bool run_is_exact(const struct run *run)
 
 static inline bool run_is_one_step(const struct run *run)
 {
-    return run->flies || run->leaps || structure_is_one_step(run->kind);
+    return run->flies || structure_is_one_step(run->kind);
 }
 
 /* Evaluate forces and accelerations of run->state if they are stale. */

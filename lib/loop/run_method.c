@@ -70,7 +70,8 @@ static void set_linear_step(struct run *run)
 {
     double resolved = run->search.moving.resolved;
     const double other = 0.8;
-    double longest = (run->options.apart ? other : 1) * linear_pace_step(&run->pace, run->step.from);
+    double longest = run->leaps ? linear_pace_leap(&run->pace) : linear_pace_step(&run->pace, run->step.from);
+    if (run->options.apart) longest *= other;
     run->step.h = fmin(longest, run->options.until - run->step.from);
     if (resolved > 0) run->step.h = fmin(run->step.h, resolved);
 }

@@ -19,11 +19,17 @@ static struct time_dd before_end(struct time_dd t, double until)
     return (struct time_dd){before, time_dd_since(t, time_dd_at(before))};
 }
 
+/* The resolution of double-double times. */
+static double resolution(double t)
+{
+    return DBL_EPSILON * DBL_EPSILON * fabs(t);
+}
+
 /* The earliest time after this one, for an event at the begin of a step: the smallest difference in
  * double-double arithmetic by which implicit methods can divide. */
 static struct time_dd at_once(struct time_dd start)
 {
-    double least = start.t == 0 ? DBL_MIN / DBL_EPSILON : DBL_EPSILON * DBL_EPSILON * fabs(start.t);
+    double least = start.t == 0 ? DBL_MIN / DBL_EPSILON : resolution(start.t);
     return (struct time_dd){start.t, nextafter(start.rest + least, HUGE_VAL)};
 }
 
@@ -97,7 +103,7 @@ struct time_dd run_pin_timed(struct run *run)
         for (size_t i = 0; i < scan->count; i++)
             if (scan->crossed[i] && rates[i] < 0) move = fmin(move, -values[i] / rates[i]);
         if (!(fabs(move) <= near * DBL_EPSILON * fabs(scan->t))) break;
-        if (fabs(move) <= DBL_EPSILON * DBL_EPSILON * fabs(scan->t)) break;
+        if (fabs(move) <= resolution(scan->t)) break;
         struct time_dd next = time_dd_after(t, move);
         if (time_dd_since(next, start) <= 0) next = at_once(start);
         t = next;

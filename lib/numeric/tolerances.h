@@ -43,7 +43,7 @@ static const double vertical_line = 1e-12;
 static const double contact_near = 1e-12;
 
 /* Level heights. A bounce lower than 2e-9 ends in rest (loop/zeno_rest.c), so that smaller steps cannot be distinguished
- * from contact. */
+ * from contact. The ends of a coupling that begins fit to the same. */
 static const double contact_level = 1e-8;
 
 /* ---- linear algebra */

@@ -214,8 +214,7 @@ static const struct field contact_fields[] = {
                  "with a line of the ground: the side of it on which the body stays; default `start`"),
     FIELD_VALUE(COUPLING(surface_speed), "surface_speed", a_velocity, stored,
                 "of the surface of the partner: of a line along it, of a polygon or body counter-clockwise "
-                "round it; an "
-                "expression of t; default 0"),
+                "round it; an expression of t; default 0"),
     UNTIL_ROW,
 };
 const struct group contact_group = {"a contact", NULL, FIELDS(contact_fields),

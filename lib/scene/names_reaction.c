@@ -63,6 +63,15 @@ static struct symbol refuse(const struct names *names, const char *name, const c
     return failed_before;
 }
 
+/* A moment, or a force in a given direction. */
+static struct symbol refuse_given(const struct names *names, const char *name, struct pos at)
+{
+    diag_add(names->reader->errors, FBD_ERROR, "unknown-name", at,
+             "write its expression here; `force` on the line of its points has a `tension`",
+             "the actuator `%s` has no reaction: its size is given", name);
+    return failed_before;
+}
+
 static struct symbol of_constraint(const struct names *names, const struct constraint *constraint, int part)
 {
     const struct scene *scene = names->reader->scene;
@@ -139,6 +148,8 @@ struct symbol reaction_symbol(const struct names *names, const char *name, struc
     for (size_t i = 0; i < scene->force_coupling_count; i++) {
         const struct force_coupling *coupling = &scene->force_couplings[i];
         if (!is_called(coupling->load.name, name, length)) continue;
+        if (coupling->load.kind == moment_applied || coupling->load.guided)
+            return refuse_given(names, coupling->load.name, at);
         if (part >= 0 && part <= reaction_tension) return of_spring(names, coupling, part);
         return refuse(names, coupling->load.name, dot + 1, at, NULL);
     }

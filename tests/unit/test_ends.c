@@ -52,7 +52,7 @@ static void a_string_breaks(void **unused)
     checks_end(&checks);
 }
 
-/* Events name reactions: of ropes, pivots, guides, rolling bodies and springs. */
+/* Events name reactions: of ropes, pivots, guides, rolling bodies, springs and actuators. */
 static void events_name_reactions(void **unused)
 {
     static const struct {
@@ -97,6 +97,15 @@ static void events_name_reactions(void **unused)
          "[b, "
          "ground.A], stiffness: 2.4674011002723395}]\n",
          "coil.x > -1.2337005501361697 N", 2.0 / 3},
+        /* An actuator pushes its two bodies apart: below zero. */
+        {"bodies: {b: {mass: 1, motion: particle, initial: {x: 1}}, c: {mass: 2, motion: "
+         "particle}}\ncouplings: "
+         "[actuator: {name: ram, between: [b, c], force: \"-3[N] - 4[N/s]*t\"}]\n",
+         "ram.tension < -5 N", 0.5},
+        {"bodies: {b: {mass: 1, motion: particle, initial: {x: 1}}, c: {mass: 2, motion: "
+         "particle}}\ncouplings: "
+         "[actuator: {name: ram, between: [b, c], force: \"-3[N] - 4[N/s]*t\"}]\n",
+         "ram.x > 5 N", 0.5},
         /* A contact: a box under a growing load, on two corners. */
         {"bodies: {b: {shape: prism, a: 1, b: 1, mass: 1, motion: planar, initial: {y: 0.5}, forces: "
          "[gravity, "

@@ -12,6 +12,7 @@
 
 #include "gallery.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -229,6 +230,50 @@ static void a_group_moves_as_if_it_were_alone(void **unused)
     checks_end(&checks);
 }
 
+/* x = cos(w t), v = -w sin(w t) with w^2 = 40, in 20 digits; the first time is within the step. */
+static void a_long_oscillation_keeps_its_phase(void **unused)
+{
+    (void)unused;
+    static const struct {
+        double t, x, v;
+    } want[] = {{5e5, 0.72445882041237263227, -4.3596303399564216662},
+                {1e6, 0.04968116494657276263, -6.3167453070376406614}};
+    struct checks checks = {0};
+    struct trial trial =
+        trial_parse(HEAD "  b: {mass: 2 kg, motion: slide, initial: {x: 1 m}, forces: [spring: "
+                         "{stiffness: 80 N/m}]}\nsimulate: {until: 1e6 s}\n");
+    trial_start(&trial, NULL);
+    for (size_t i = 0; i < sizeof want / sizeof *want; i++) {
+        trial_to(&trial, want[i].t);
+        check_close(&checks, "x", trial_get(&trial, "b.x"), want[i].x, 4e-15);
+        check_close(&checks, "v", trial_get(&trial, "b.v"), want[i].v, 2e-14);
+    }
+    check_that(&checks, "one step", fbd_simulation_stats(trial.simulation).steps == 1);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
+/* x = cosh(2 t): the force 4 x is beyond the largest number, 1.8e308, from t = 354.2 on; x itself from 355.2 on. */
+static void a_growing_motion_ends_where_it_overflows(void **unused)
+{
+    (void)unused;
+    double last = 0, beyond = 0;
+    struct checks checks = {0};
+    struct trial trial =
+        trial_parse(HEAD "  b: {mass: 1 kg, motion: slide, initial: {x: 1 m}, forces: [applied: "
+                         "{value: \"4[N/m]*x\"}]}\nsimulate: {until: 1000 s}\n");
+    trial_run(&trial, NULL);
+    check_that(&checks, "it fails", trial.outcome == FBD_FAILED);
+    const char *reason = fbd_simulation_reason(trial.simulation);
+    const char *first = strstr(reason, "at t = "), *second = first ? strstr(first + 1, "at t = ") : NULL;
+    check_that(&checks, "both times",
+               second && sscanf(first, "at t = %lf", &beyond) == 1 &&
+                   sscanf(second, "at t = %lf", &last) == 1);
+    check_that(&checks, "around the overflow", last > 353 && beyond > last && beyond < 356);
+    trial_close(&trial);
+    checks_end(&checks);
+}
+
 /* Step by step the interval is covered by every group; in one go the same end is reached. */
 static void step_by_step_and_in_one_go_are_the_same(void **unused)
 {
@@ -443,6 +488,8 @@ int main(void)
         cmocka_unit_test(runs_with_and_without_agree_over_the_gallery),
         cmocka_unit_test(bodies_hang_together_by_what_they_read),
         cmocka_unit_test(a_group_moves_as_if_it_were_alone),
+        cmocka_unit_test(a_long_oscillation_keeps_its_phase),
+        cmocka_unit_test(a_growing_motion_ends_where_it_overflows),
         cmocka_unit_test(step_by_step_and_in_one_go_are_the_same),
         cmocka_unit_test(an_early_end_of_one_group_ends_all),
         cmocka_unit_test(jointed_bodies_form_groups_that_agree_with_the_whole),
