@@ -53,77 +53,78 @@ static void a_string_breaks(void **unused)
 }
 
 /* Events name reactions: of ropes, pivots, guides, rolling bodies, springs and actuators. */
+static const struct {
+    const char *scene, *when;
+    double t;
+} named[] = {
+    /* A load that grows by 2 N/s, over a rope. */
+    {"bodies: {b: {mass: 1, motion: {slide: {along: 90 deg}}, initial: {x: -1}, forces: [gravity, "
+     "applied: {value: \"-2[N/s]*t\"}]}}\n"
+     "couplings: [rope: {name: cord, through: [ground.A, b]}]\n",
+     "cord.tension > 11.81 N", 1},
+    /* The pin of a balanced wheel with a growing force on it. */
+    {"bodies: {b: {mass: 1, inertia: 1, motion: pivot, forces: [gravity, applied: {fx: \"3[N/s]*t\", fy: "
+     "9.81}]}}\n",
+     "b.pin.x < -4.5 N", 1.5},
+    {"bodies: {b: {mass: 1, inertia: 1, motion: pivot, forces: [gravity, applied: {fx: \"3[N/s]*t\", fy: "
+     "9.81}]}}\n",
+     "b.pin.force > 4.5 N", 1.5},
+    /* A block pressed on its floor, and its friction, which is positive while it slips to the right. */
+    {"bodies: {b: {mass: 1, motion: slide, initial: {v: 30}, forces: [gravity, normal, friction: 0.5, "
+     "applied: {value: \"4[N/s]*t\", angle: -90 deg}]}}\n",
+     "b.normal > 13.81 N", 1},
+    {"bodies: {b: {mass: 1, motion: slide, initial: {v: 30}, forces: [gravity, normal, friction: 0.5, "
+     "applied: {value: \"4[N/s]*t\", angle: -90 deg}]}}\n",
+     "b.friction > 6.905 N", 1},
+    {"bodies: {b: {mass: 1, motion: slide, forces: [gravity, normal: {two_sided: true}, "
+     "applied: {value: \"4[N/s]*t\", angle: -90 deg}]}}\n",
+     "b.normal > 13.81 N", 1},
+    /* A disc that is pulled at its centre rolls: f = F/3 to the left. */
+    {"bodies: {b: {shape: disc, mass: 1, radius: 1, motion: planar, initial: {y: 1}, forces: [gravity, "
+     "applied: {fx: \"3[N/s]*t\", fy: 0}]}}\ncouplings: [roll: {name: tread, body: b, on: floor}]\n",
+     "tread.friction > 1 N", 1},
+    {"bodies: {b: {shape: disc, mass: 1, radius: 1, motion: planar, initial: {y: 1}, forces: [gravity, "
+     "applied: {fx: 0, fy: \"-3[N/s]*t\"}]}}\ncouplings: [roll: {name: tread, body: b, on: floor}]\n",
+     "tread.normal > 12.81 N", 1},
+    /* A mass on a spring, k/m = pi^2/4: at t = 2/3 the force is k cos(pi/3). */
+    {"bodies: {b: {mass: 1, motion: slide, initial: {x: 1}}}\ncouplings: [spring: {name: coil, between: "
+     "[b, "
+     "ground.A], stiffness: 2.4674011002723395}]\n",
+     "coil.tension < 1.2337005501361697 N", 2.0 / 3},
+    {"bodies: {b: {mass: 1, motion: slide, initial: {x: 1}}}\ncouplings: [spring: {name: coil, between: "
+     "[b, "
+     "ground.A], stiffness: 2.4674011002723395}]\n",
+     "coil.x > -1.2337005501361697 N", 2.0 / 3},
+    /* An actuator pushes its two bodies apart: below zero. */
+    {"bodies: {b: {mass: 1, motion: particle, initial: {x: 1}}, c: {mass: 2, motion: "
+     "particle}}\ncouplings: "
+     "[actuator: {name: ram, between: [b, c], force: \"-3[N] - 4[N/s]*t\"}]\n",
+     "ram.tension < -5 N", 0.5},
+    {"bodies: {b: {mass: 1, motion: particle, initial: {x: 1}}, c: {mass: 2, motion: "
+     "particle}}\ncouplings: "
+     "[actuator: {name: ram, between: [b, c], force: \"-3[N] - 4[N/s]*t\"}]\n",
+     "ram.x > 5 N", 0.5},
+    /* A contact: a box under a growing load, on two corners. */
+    {"bodies: {b: {shape: prism, a: 1, b: 1, mass: 1, motion: planar, initial: {y: 0.5}, forces: "
+     "[gravity, "
+     "applied: {fx: 0, fy: \"-3[N/s]*t\"}]}}\ncontacts: [{name: touch, between: [b, ground.floor]}]\n",
+     "touch.normal > 12.81 N", 1},
+};
+
 static void events_name_reactions(void **unused)
 {
-    static const struct {
-        const char *scene, *when;
-        double t;
-    } cases[] = {
-        /* A load that grows by 2 N/s, over a rope. */
-        {"bodies: {b: {mass: 1, motion: {slide: {along: 90 deg}}, initial: {x: -1}, forces: [gravity, "
-         "applied: {value: \"-2[N/s]*t\"}]}}\n"
-         "couplings: [rope: {name: cord, through: [ground.A, b]}]\n",
-         "cord.tension > 11.81 N", 1},
-        /* The pin of a balanced wheel with a growing force on it. */
-        {"bodies: {b: {mass: 1, inertia: 1, motion: pivot, forces: [gravity, applied: {fx: \"3[N/s]*t\", fy: "
-         "9.81}]}}\n",
-         "b.pin.x < -4.5 N", 1.5},
-        {"bodies: {b: {mass: 1, inertia: 1, motion: pivot, forces: [gravity, applied: {fx: \"3[N/s]*t\", fy: "
-         "9.81}]}}\n",
-         "b.pin.force > 4.5 N", 1.5},
-        /* A block pressed on its floor, and its friction, which is positive while it slips to the right. */
-        {"bodies: {b: {mass: 1, motion: slide, initial: {v: 30}, forces: [gravity, normal, friction: 0.5, "
-         "applied: {value: \"4[N/s]*t\", angle: -90 deg}]}}\n",
-         "b.normal > 13.81 N", 1},
-        {"bodies: {b: {mass: 1, motion: slide, initial: {v: 30}, forces: [gravity, normal, friction: 0.5, "
-         "applied: {value: \"4[N/s]*t\", angle: -90 deg}]}}\n",
-         "b.friction > 6.905 N", 1},
-        {"bodies: {b: {mass: 1, motion: slide, forces: [gravity, normal: {two_sided: true}, "
-         "applied: {value: \"4[N/s]*t\", angle: -90 deg}]}}\n",
-         "b.normal > 13.81 N", 1},
-        /* A disc that is pulled at its centre rolls: f = F/3 to the left. */
-        {"bodies: {b: {shape: disc, mass: 1, radius: 1, motion: planar, initial: {y: 1}, forces: [gravity, "
-         "applied: {fx: \"3[N/s]*t\", fy: 0}]}}\ncouplings: [roll: {name: tread, body: b, on: floor}]\n",
-         "tread.friction > 1 N", 1},
-        {"bodies: {b: {shape: disc, mass: 1, radius: 1, motion: planar, initial: {y: 1}, forces: [gravity, "
-         "applied: {fx: 0, fy: \"-3[N/s]*t\"}]}}\ncouplings: [roll: {name: tread, body: b, on: floor}]\n",
-         "tread.normal > 12.81 N", 1},
-        /* A mass on a spring, k/m = pi^2/4: at t = 2/3 the force is k cos(pi/3). */
-        {"bodies: {b: {mass: 1, motion: slide, initial: {x: 1}}}\ncouplings: [spring: {name: coil, between: "
-         "[b, "
-         "ground.A], stiffness: 2.4674011002723395}]\n",
-         "coil.tension < 1.2337005501361697 N", 2.0 / 3},
-        {"bodies: {b: {mass: 1, motion: slide, initial: {x: 1}}}\ncouplings: [spring: {name: coil, between: "
-         "[b, "
-         "ground.A], stiffness: 2.4674011002723395}]\n",
-         "coil.x > -1.2337005501361697 N", 2.0 / 3},
-        /* An actuator pushes its two bodies apart: below zero. */
-        {"bodies: {b: {mass: 1, motion: particle, initial: {x: 1}}, c: {mass: 2, motion: "
-         "particle}}\ncouplings: "
-         "[actuator: {name: ram, between: [b, c], force: \"-3[N] - 4[N/s]*t\"}]\n",
-         "ram.tension < -5 N", 0.5},
-        {"bodies: {b: {mass: 1, motion: particle, initial: {x: 1}}, c: {mass: 2, motion: "
-         "particle}}\ncouplings: "
-         "[actuator: {name: ram, between: [b, c], force: \"-3[N] - 4[N/s]*t\"}]\n",
-         "ram.x > 5 N", 0.5},
-        /* A contact: a box under a growing load, on two corners. */
-        {"bodies: {b: {shape: prism, a: 1, b: 1, mass: 1, motion: planar, initial: {y: 0.5}, forces: "
-         "[gravity, "
-         "applied: {fx: 0, fy: \"-3[N/s]*t\"}]}}\ncontacts: [{name: touch, between: [b, ground.floor]}]\n",
-         "touch.normal > 12.81 N", 1},
-    };
     struct checks checks = {0};
     (void)unused;
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; i < sizeof named / sizeof *named; i++) {
         char text[text_room];
         snprintf(text, sizeof text,
                  "fbd: 1\nground: {points: {A: [0, 0]}, lines: {floor: {along: 0}}}\n%ssimulate: {until: 3, "
                  "tolerance: "
                  "1e-12, events: [{name: hit, when: %s}]}\n",
-                 cases[i].scene, cases[i].when);
+                 named[i].scene, named[i].when);
         struct trial trial = trial_parse(text);
         trial_start(&trial, NULL);
-        check_close(&checks, cases[i].when, trial_to_event(&trial, FBD_EVENT_USER, "hit", 0), cases[i].t,
+        check_close(&checks, named[i].when, trial_to_event(&trial, FBD_EVENT_USER, "hit", 0), named[i].t,
                     same);
         trial_close(&trial);
     }
