@@ -240,8 +240,8 @@ uninstall:
 	cp $(BUILD)/installed.txt $(BUILD)/meson-logs/install-log.txt
 	ninja -C $(BUILD) uninstall
 
-# The source as a tarball, of what is committed: $(BUILD)/meson-dist.
-dist: $(BUILD)/build.ninja
+# The source as a tarball, of what is committed, with the finished module of live pages: $(BUILD)/meson-dist.
+dist: live
 	meson dist -C $(BUILD) --no-tests
 
 # That the tarball builds by itself, installs and goes away again, and that its run enters no function of an effect that
@@ -252,11 +252,11 @@ dist-check: $(BUILD)/.tests
 
 # Packages for Debian, of what is committed; `deb-check` also asks lintian, installs them and tries them.
 DEBS = $(BUILD)-debian
-deb:
+deb: live
 	.ci/install-packages run deb
 	tests/packaging/debian $(DEBS) build
 
-deb-check:
+deb-check: live
 	.ci/install-packages run deb
 	tests/packaging/debian $(DEBS)
 

@@ -197,7 +197,7 @@ static bool live_can_be_made(void)
     if (fbd_has_live()) return true;
     return usage(
         "this fbd was built without --live: `make live` in its source compiles the library for browsers "
-        "(Debian's emscripten) and builds it anew",
+        "and builds it anew",
         "");
 }
 

@@ -49,7 +49,7 @@ static void write_asset(struct text *text, const void *context)
 
 static void write_scripts(struct text *text, const void *context)
 {
-    static const char *const names[] = {"engine.js", "knobs.js", "editor.js", "share.js", "bench.js"};
+    static const char *const names[] = {"engine.js", "knobs.js", "editor.js", "share.js", "values.js", "bench.js"};
     (void)context;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) write_asset(text, names[i]);
 }
@@ -110,7 +110,7 @@ bool live_add_engine(struct text *text, const fbd_model *model, fbd_errors *erro
     for (size_t i = 0; i < fbd_model_data_file_count(model); i++)
         done = add_file(text, file_of(model), fbd_model_data_file(model, i).path, i, errors) && done;
     text_add(text, "],\n");
-    add_script(text, "fbd-live.js");
+    add_script(text, "wasi.js");
     text_add(text, ",\n");
     add_script(text, "worker.js");
     text_add(text, "}");
@@ -171,7 +171,7 @@ static char *make_page(fbd_result *result, const fbd_live_options *options, fbd_
     diag_in_file(errors, fbd_model_file(model));
     if (!page.wasm) {
         diag_add(errors, FBD_ERROR, "no-live", (struct pos){0, 0},
-                 "`make live` compiles the library for browsers (Debian's emscripten); then build again",
+                 "`make live` compiles the library for browsers ; then build again",
                  "this fbd was built without live pages");
         return NULL;
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What pages ask the module for: derivations checked and answers graded, as JSON.
+ * What pages ask the module for: derivations checked, values found, notes written and answers graded, as JSON.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -55,6 +55,20 @@ static void derivations_are_checked(void **unused)
     says(live_check_hand("fbd: 1\nbodies: 3\n", "none.yaml"), "\"id\":\"wrong-type\"");
 }
 
+static void values_are_found(void **unused)
+{
+    (void)unused;
+    says(live_find(right, "right.yaml", "F = 1..30 N: block.x = 4 m", 0), "\"value\": 16"); /* F t^2/(2 m) */
+    says(live_find(right, "right.yaml", "G = 1..30 N: block.x = 4 m", 0), "\"id\":\"unknown-parameter\"");
+}
+
+static void notes_are_written(void **unused)
+{
+    (void)unused;
+    says(live_note(right, "right.yaml", ""), "\"note\":\"<!DOCTYPE html>");
+    says(live_note("fbd: 1\nbodies: 3\n", "none.yaml", ""), "\"note\":null}");
+}
+
 static void answers_are_graded(void **unused)
 {
     (void)unused;
@@ -82,6 +96,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(derivations_are_checked),
+        cmocka_unit_test(values_are_found),
+        cmocka_unit_test(notes_are_written),
         cmocka_unit_test(answers_are_graded),
         cmocka_unit_test(details_are_for_the_teacher),
     };

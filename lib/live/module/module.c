@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The functions that the worker of a live page calls, compiled to WebAssembly by emscripten: texts in, JSON
- * out. They only call the library, as fbd-run does.
+ * The functions that the worker of a live page calls, compiled to WebAssembly: texts in, JSON out. They only call the library, as fbd-run does.
  *
  * `off` lists the effects that are switched off, one per line. Answers are to be freed with free(); NULL when
  * memory is out.
  */
-#include <emscripten.h>
 #include <gsl/gsl_errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "fbd.h"
 #include "fbd_export.h"
+#include "fbd_find.h"
 #include "fbd_grade.h"
 #include "fbd_study.h"
 #include "module.h"
@@ -98,16 +98,21 @@ char *live_controls(const char *text, const char *name)
 
 /* ---- runs */
 
-EM_JS(void, tell_progress, (double done, double all), { Module.progress(done, all); })
+static double milliseconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
+}
 
 /* Report at most as often as a page shows the progress. */
 static int progress(void *context, const fbd_progress *now)
 {
-    double *last = context, clock = emscripten_get_now();
+    double *last = context, clock = milliseconds();
     if (clock - *last < 100) return 0;
     *last = clock;
     bool run = strcmp(now->what, "run") == 0;
-    tell_progress(run ? now->t : now->share, run ? now->until : 1);
+    page_progress(run ? now->t : now->share, run ? now->until : 1);
     return 0;
 }
 
@@ -116,7 +121,7 @@ char *live_run(const char *text, const char *name, const char *off, double rows)
     fbd_errors *errors = fbd_errors_new();
     fbd_model *model = read_model(text, name, off, errors);
     fbd_simulation *simulation = model ? fbd_simulation_new(model, NULL, errors) : NULL;
-    double last = emscripten_get_now();
+    double last = milliseconds();
     fbd_recording recording = {.keep = true,
                                .rows = (unsigned)rows,
                                .progress = progress,
@@ -173,7 +178,7 @@ char *live_cost(const char *text, const char *name, const char *off, double budg
 {
     fbd_errors *errors = fbd_errors_new();
     fbd_model *model = read_model(text, name, off, errors);
-    double last = emscripten_get_now();
+    double last = milliseconds();
     fbd_cost_options options = FBD_COST_OPTIONS_DEFAULT;
     options.budget = budget;
     options.progress = progress;
@@ -251,8 +256,42 @@ char *live_grade(const char *key_text, const char *settings, const char *text, c
     return answer(errors, "grade", json);
 }
 
-int main(void)
+/* ---- values and notes */
+
+char *live_find(const char *text, const char *name, const char *question, double statics)
+{
+    fbd_errors *errors = fbd_errors_new();
+    double last = milliseconds();
+    const fbd_find_plan plan = {.statics = statics != 0, .progress = progress, .progress_context = &last};
+    fbd_find *find = fbd_find_parse(text, strlen(text), name, question, &plan, errors);
+    char *json = find ? fbd_find_json(find) : NULL;
+    fbd_find_free(find);
+    return answer(errors, "find", json);
+}
+
+char *live_note(const char *text, const char *name, const char *off)
+{
+    fbd_errors *errors = fbd_errors_new();
+    fbd_model *model = read_model(text, name, off, errors);
+    fbd_options exact = FBD_OPTIONS_DEFAULT;
+    exact.error_bars = true;
+    fbd_simulation *simulation = model ? fbd_simulation_new(model, &exact, errors) : NULL;
+    double last = milliseconds();
+    const fbd_recording recording = {.table = true, .progress = progress, .progress_context = &last};
+    fbd_result *result = simulation ? fbd_simulation_run(simulation, &recording) : NULL;
+    const fbd_note_options options = {.progress = progress, .progress_context = &last};
+    fbd_note *note = result ? fbd_note_new(simulation, result, &options, errors) : NULL;
+    char *html = note ? fbd_note_write(note, FBD_NOTE_HTML, "note") : NULL, *json = quoted(html);
+    fbd_free(html);
+    fbd_note_free(note);
+    fbd_result_free(result);
+    fbd_simulation_free(simulation);
+    fbd_model_free(model);
+    return answer(errors, "note", json);
+}
+
+/* Called once, before the others. */
+void live_begin(void)
 {
     gsl_set_error_handler_off(); /* every status is checked instead */
-    return 0;
 }

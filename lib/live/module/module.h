@@ -5,6 +5,15 @@
 #ifndef FBD_LIVE_MODULE_H
 #define FBD_LIVE_MODULE_H
 
+/* Of the page: `done` of `all` is completed. */
+#ifdef __wasm__
+__attribute__((import_module("page"), import_name("progress")))
+#endif
+void page_progress(double done, double all);
+
+/* To be called once, before the others. */
+void live_begin(void);
+
 /* The text without the effects in `off`, as it is saved; NULL if that is no model. */
 char *live_text(const char *text, const char *name, const char *off);
 
@@ -28,5 +37,12 @@ char *live_check_hand(const char *text, const char *name);
  * The drawn values are those of this student; `settings` has values from outside, NAME=VALUE, one per line. */
 char *live_grade(const char *key_text, const char *settings, const char *text, const char *student,
                  double details);
+
+/* {errors, find}: the value of fbd_find_json for a question (fbd_find_parse), or null; of the scene at rest if `statics` is
+ * not 0. */
+char *live_find(const char *text, const char *name, const char *question, double statics);
+
+/* {errors, note}: the calculation note of the run as HTML, with error bars, or null without a run. */
+char *live_note(const char *text, const char *name, const char *off);
 
 #endif

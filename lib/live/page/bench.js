@@ -3,7 +3,7 @@
 // The live page: the text of the model is run, saved and carried by links; sliders change their numbers in it. Effects
 // that are off are removed from the text that runs.
 
-const bench = { base: parts.text, moved: new Map(), off: new Set(), controls: null, asked: "", shown: 0, runner: null, coster: null };
+const bench = { base: parts.text, moved: new Map(), off: new Set(), controls: null, asked: "", shown: 0, runner: null, coster: null, writer: null };
 
 // The text with all changes made by sliders since `controls` were received.
 function benchText() {
@@ -188,6 +188,7 @@ function connectBench() {
   element("live-stop").addEventListener("click", stopRun);
   element("live-reset").addEventListener("click", () => { setModel(ownText(), []); });
   connectShare();
+  connectValues();
 }
 
 function setModel(text, off) {

@@ -6,7 +6,7 @@
 const parts = JSON.parse(element("live-parts").textContent);
 const patience = 2000; // ms
 
-const engine = { module: null, script: URL.createObjectURL(new Blob([parts["fbd-live.js"], "\n", parts["worker.js"]], { type: "text/javascript" })) };
+const engine = { module: null, script: URL.createObjectURL(new Blob([parts["wasi.js"], "\n", parts["worker.js"]], { type: "text/javascript" })) };
 
 async function compileEngine() {
   const bytes = new Blob([decode(element("live-wasm").textContent.trim())]).stream();

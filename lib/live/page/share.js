@@ -8,13 +8,28 @@ function savedText(answered) {
   else bench.runner.ask("text", [editor.value, parts.name, offNames()], (text) => answered(text ?? editor.value));
 }
 
+function download(text, type, name) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([text], { type }));
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
 function saveText() {
-  savedText((text) => {
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(new Blob([text], { type: "text/yaml" }));
-    link.download = parts.name;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  savedText((text) => download(text, "text/yaml", parts.name));
+}
+
+// A calculation note of the model that is shown, as HTML.
+function saveNote() {
+  const button = element("live-note"), said = button.textContent;
+  button.textContent = "calculating…";
+  bench.writer = bench.writer || makeAsker(() => {});
+  bench.writer.ask("note", [editor.value, parts.name, offNames()], (answer) => {
+    const { errors, note } = JSON.parse(answer);
+    button.textContent = said;
+    if (note) download(note, "text/html", parts.name.replace(/(\.ya?ml)?$/, "-note.html"));
+    else say(errors.find(({ severity }) => severity === "error")?.message ?? "there is no note", "error");
   });
 }
 
@@ -100,6 +115,7 @@ function copy(text, button) {
 
 function connectShare() {
   element("live-save").addEventListener("click", saveText);
+  element("live-note").addEventListener("click", saveNote);
   element("live-link").addEventListener("click", () => copy(bench.link || location.href, element("live-link")));
   element("live-copy").addEventListener("click", () => copy(element("live-command").textContent, element("live-copy")));
   addEventListener("hashchange", async () => {

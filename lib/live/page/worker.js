@@ -1,36 +1,35 @@
 "use strict";
 
-// Code of the worker: calls the library through its loader (fbd-live.js), one question after another. Texts in, JSON
-// out.
+// Code of the worker: calls the library, one question after another. Texts in, JSON out.
 
 let library = null;
 
 function toHeap(text) {
-  const size = library.lengthBytesUTF8(text) + 1, at = library._malloc(size);
-  library.stringToUTF8(text, at, size);
+  const bytes = new TextEncoder().encode(text), at = library.malloc(bytes.length + 1);
+  const heap = new Uint8Array(library.memory.buffer, at, bytes.length + 1);
+  heap.set(bytes);
+  heap[bytes.length] = 0;
   return at;
 }
 
+function fromHeap(at) {
+  const heap = new Uint8Array(library.memory.buffer);
+  return new TextDecoder().decode(heap.subarray(at, heap.indexOf(0, at)));
+}
+
 function call(name, texts, numbers) {
-  const places = texts.map(toHeap), answer = library[`_live_${name}`](...places, ...numbers);
-  const text = answer ? library.UTF8ToString(answer) : null;
-  for (const at of [...places, answer]) library._free(at);
+  const places = texts.map(toHeap), answer = library[`live_${name}`](...places, ...numbers);
+  const text = answer ? fromHeap(answer) : null;
+  for (const at of [...places, answer]) library.free(at);
   return text;
 }
 
 async function begin({ module, files }) {
-  library = await self.makeFbd({
-    instantiateWasm(imports, done) {
-      WebAssembly.instantiate(module, imports).then(done);
-      return {};
-    },
-    progress: (done, all) => postMessage({ progress: [done, all] }),
-  });
-  for (const [name, text] of files) {
-    const folder = name.slice(0, name.lastIndexOf("/") + 1);
-    if (folder) library.FS.mkdirTree(folder);
-    library.FS.writeFile(name, text);
-  }
+  const page = { progress: (done, all) => postMessage({ progress: [done, all] }) };
+  const imports = { page, wasi_snapshot_preview1: makeSystem(files, () => library.memory) };
+  library = (await WebAssembly.instantiate(module, imports)).exports;
+  library._initialize();
+  library.live_begin();
   postMessage({ ready: true });
 }
 
