@@ -5,6 +5,7 @@ the editor marks what is wrong where it is, effects go off and on, links carry w
 Skipped where the library for browsers has not been made (`make live`)."""
 import csv
 import json
+import math
 import os
 import sys
 import tempfile
@@ -221,6 +222,28 @@ def check_effects(browser, folder):
         is_quiet(browser, path)
 
 
+def check_values(browser, folder):
+    path = live_page(folder, INCLINE)
+    open_live(browser, path)
+    with claim("at which value the block slides back is found in the page, marked on its slider, and set by a button"):
+        browser.run("element('live-values').open = true; element('live-question').value = 'phi'; element('live-find').requestSubmit()")
+        wait_for(browser, "element('live-found').childElementCount > 0")
+        want = json.loads(run("--find", "phi", "--json", "-", INCLINE))["solutions"][0]["value"]
+        settled(browser, "document.querySelector('#live-found button').click()")
+        phi = browser.run("return /phi: \\{value: (.*?) deg/.exec(editor.value)[1]")
+        close(math.radians(float(phi)), want, 1e-9)
+        close(math.radians(float(browser.run("return document.querySelector('#live-values-marks option').value"))), want, 1e-12)
+    with claim("a question that is none is answered by what is wrong"):
+        browser.run("element('live-question').value = 'nothing'; element('live-find').requestSubmit()")
+        wait_for(browser, "element('live-find-says').className === 'error'")
+        assert "nothing" in browser.run("return element('live-find-says').textContent")
+    with claim("the calculation note is that of fbd-run"):
+        answer = json.loads(browser.run(WORKER, "note"))
+        assert answer["errors"] == [] and "Block on an incline" in answer["note"] and "</html>" in answer["note"], answer["errors"]
+    with claim("the page is quiet and asks for nothing"):
+        is_quiet(browser, path)
+
+
 def check_set(browser, folder):
     with claim("what the command line sets is where the sliders begin"):
         path = live_page(folder, INCLINE, "--set", "phi=40 deg", "--until", "2")
@@ -277,6 +300,7 @@ def main():
                 check_sliders(browser, folder)
                 check_editor(browser, folder)
                 check_effects(browser, folder)
+                check_values(browser, folder)
                 check_set(browser, folder)
                 check_speed(browser, folder)
                 check_models(browser, folder, 1 if os.environ.get("FBD_ALL_PAGES") else 9)

@@ -3,7 +3,7 @@
 // At which value of a parameter does an outcome change, or an equation hold? The answers become marks on its slider, at
 // which it stops when it is dragged, and buttons that set it.
 
-const values = { asker: null };
+const finder = { asker: null };
 
 // A value in SI units as the slider of a parameter writes it, with all digits that are known.
 function valueAsWritten(knob, { value, error }) {
@@ -34,7 +34,7 @@ function foundItem(key, knob, solution) {
   return item;
 }
 
-function showValues(answer) {
+function showFound(answer) {
   const { errors, find } = JSON.parse(answer), says = element("live-find-says"), list = element("live-found");
   const wrong = errors.find((note) => note.severity === "error"), key = find && `parameters.${find.parameter}`;
   const knob = find && knobs.get(key);
@@ -50,9 +50,9 @@ function showValues(answer) {
 function askForValues(event) {
   event.preventDefault();
   const says = element("live-find-says");
-  values.asker = values.asker || makeAsker(([share, all]) => { says.textContent = `searching… ${Math.round(100 * share / all)} %`; });
+  finder.asker = finder.asker || makeAsker(([share, all]) => { says.textContent = `searching… ${Math.round(100 * share / all)} %`; });
   says.textContent = "searching…";
-  values.asker.ask("find", [editor.value, parts.name, element("live-question").value], showValues, [element("live-statics").checked ? 1 : 0]);
+  finder.asker.ask("find", [editor.value, parts.name, element("live-question").value], showFound, [element("live-statics").checked ? 1 : 0]);
 }
 
 function connectValues() {
