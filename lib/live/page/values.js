@@ -29,7 +29,7 @@ function foundItem(key, knob, solution) {
   button.type = "button";
   button.textContent = `${knob.control.name} = ${written}`;
   button.addEventListener("click", () => moved(key, written));
-  item.append(button, ` ±${show(solution.error / knob.quantity.factor, 2)}`);
+  item.append(button, ` ±${show(solution.error / knob.quantity.factor, 2)} ${knob.quantity.unit}`.trimEnd());
   if (solution.below) item.append(`; below: ${solution.below}; above: ${solution.above}`);
   return item;
 }
@@ -43,8 +43,9 @@ function showFound(answer) {
   if (!knob) return;
   list.append(...find.solutions.map((solution) => foundItem(key, knob, solution)));
   markSlider(knob, find.solutions);
+  const within = `${show(find.step / knob.quantity.factor, 3)} ${knob.quantity.unit}`.trim();
   const range = `between ${show(find.from / knob.quantity.factor)} and ${show(find.to / knob.quantity.factor)} ${knob.quantity.unit}`.trim();
-  says.textContent = `${find.solutions.length || "no"} ${find.solutions.length === 1 ? "value" : "values"} ${range}; ${find.runs} runs, of two values closer than ${show(find.step / knob.quantity.factor, 3)} both may be missed`;
+  says.textContent = `${find.solutions.length || "no"} ${find.solutions.length === 1 ? "value" : "values"} ${range}; ${find.runs} runs, of two values closer than ${within} both may be missed`;
 }
 
 function askForValues(event) {
