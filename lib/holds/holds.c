@@ -124,6 +124,17 @@ static void take(struct hold_problem *problem, const struct pivoting_row *rows)
     }
 }
 
+/* Where no path from these modes ends in a solution, one from all constraints closed or sticking may. */
+static enum pivoting solve(struct pivoting_problem *rows)
+{
+    enum pivoting found = pivoting_solve(rows);
+    if (found != pivoting_ray) return found;
+    rows->basic = false;
+    for (size_t i = 0; i < rows->count; i++)
+        if (rows->rows[i].load == load_is_force) rows->rows[i].mode = between;
+    return pivoting_solve(rows);
+}
+
 enum holds_found holds_decide(struct hold_problem *problem)
 {
     static const enum holds_found found_as[] = {
@@ -146,7 +157,7 @@ enum holds_found holds_decide(struct hold_problem *problem)
             for (size_t j = 0; j < n; j++) A[i * all + j] = problem->A[i * n + j];
         }
         for (size_t g = 0; g < problem->guide_count; g++) add_guide(problem, g, &rows, A);
-        found = found_as[pivoting_solve(&rows)];
+        found = found_as[solve(&rows)];
         if (found <= holds_several) take(problem, rows.rows);
     }
     free(rows.rows);

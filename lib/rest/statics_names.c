@@ -134,8 +134,7 @@ static void hold_alone(struct fbd_statics *statics, const struct rest_system *sy
         most = fmax(most, fabs(motion[i]));
     }
     for (size_t i = 0; i < count; i++)
-        if (fabs(motion[i]) >= hardly * most)
-            add_holding(statics, system, free[i], -work / motion[i], true);
+        if (fabs(motion[i]) >= hardly * most) add_holding(statics, system, free[i], -work / motion[i], true);
 }
 
 /* Several possible motions: as many coordinates, those of the basis of their columns. */
