@@ -61,6 +61,7 @@ enum holds_found gathered_solve(struct fbd_state *state, const struct decided *d
     enum holds_found found = holds_no_memory;
     if (gathered_find(&all, state, decided, forced, shares_answer)) {
         tree_find_unpressed(&all, decided, forced);
+        all.problem.basic = true; /* for barely_holds */
         found = holds_decide(&all.problem);
         if (found != holds_decided) state->holds = trouble_of(&all, found);
     }

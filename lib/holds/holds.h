@@ -14,20 +14,13 @@
  * has one (N < 0 then means that the joint loses its surface, which the caller reports).
  *
  * All other forces respond linearly, c = c_0 + A f and N = N_0 + B f, with A = J M^-1 J^T (Delassus' matrix,
- * the other constraints included) and c_0, N_0 the values without unilateral constraints. The result is a
- * linear complementarity problem (Glocker, Set-Valued Force Laws, 2001, chapter 8): with f = r - mu P and c =
- * c' - c''
+ * the other constraints included) and c_0, N_0 the values without unilateral constraints. So constraints are
+ * rows of numeric/pivoting.h, and a guide is an equality with the force N,
  *
- *     one-sided         z = f     w = c
- *     guide             z = N'    w = N''      N = N' - N''
- *     friction at rest  z = r     w = c'       r = mu P + f
- *                       z = c''   w = l        l = mu P - f = 2 mu P - r
+ *     alpha (N - N_0 - B f) = 0,    c = c_0 + alpha B^T N_0 + (A + alpha B^T B) f - alpha B^T N
  *
- * Slipping friction is no unknown: its force is mu_k P. With mu_k < mu_s the slipping set is found with mu_s,
- * then gets mu_k, and the others are decided again.
- *
- * Where Lemke's method ends without a solution all modes are enumerated, if they are not too many: this
- * proves that there is no solution, as in Painleve's paradox, or that there are several.
+ * which is symmetric for any alpha > 0; alpha is the largest A_ii of the friction on it. With mu_k < mu_s the
+ * slipping set is found with mu_s, then gets mu_k, and the others are decided again.
  */
 #ifndef FBD_HOLDS_HOLDS_H
 #define FBD_HOLDS_HOLDS_H
@@ -47,6 +40,7 @@ struct hold {
     double mu_s, mu_k;     /* friction; of a bearing its limits */
     enum hold_press press; /* friction: the kind of its normal force, */
     int presses;           /* and its index among holds or guides */
+    double preload;        /* a normal force that adds to that of the other one */
     int slip;              /* friction: direction of present slip, 0 at rest */
     /* found: */
     int mode; /* enum hold_mode */
@@ -65,8 +59,9 @@ struct hold_problem {
     struct hold_guide *guides;
     double *A; /* count x count, row by row */
     double *B; /* guide_count x count */
-    /* Of a part: the largest acceleration (weighted, see holds.c) and force of the whole without constraints. */
-    double beside_c, beside_force;
+    bool
+        basic; /* of forces that are indeterminate, decide those of a basis, as many as can be at their limits */
+    double size; /* an acceleration (weighted, see holds_weight) relative to which others are round-off */
 };
 
 /* 1 / sqrt(A_ii), which makes accelerations of distances and of angles comparable. */
@@ -80,9 +75,8 @@ enum holds_found {
     holds_no_memory
 };
 
-/* Is the surface of the friction open? holds_set_open sets its mode there from its direction of motion. */
+/* Is the surface of the friction open? */
 bool holds_is_on_open(const struct hold_problem *problem, const struct hold *hold);
-void holds_set_open(struct hold_problem *problem);
 
 /* Is its acceleration at most `share` of the largest one? */
 bool holds_is_still(const struct hold_problem *problem, size_t i, double share);
@@ -91,35 +85,7 @@ bool holds_is_still(const struct hold_problem *problem, size_t i, double share);
 bool holds_new(struct hold_problem *problem, size_t count, size_t guide_count);
 void holds_free(struct hold_problem *problem);
 
+/* Decide all of them, with the least admissible forces where these are indeterminate, unless `basic`. */
 enum holds_found holds_decide(struct hold_problem *problem);
-
-/* Are the present forces and accelerations consistent with the modes and limits? O(count). */
-bool holds_agree(const struct hold_problem *problem);
-
-/* How force and acceleration of constraint i violate its mode. */
-enum hold_breach {
-    hold_breaks_nothing,
-    hold_overloaded, /* closed or sticking: the force exceeds its limits */
-    hold_moves_back, /* open or slipping: it moves in the opposite direction */
-};
-
-enum hold_breach holds_breach(const struct hold_problem *problem, size_t i);
-
-/* Minimum-norm forces where they are indeterminate and these are within their limits; modes are unchanged,
- * except that constraints slipping by rounding stick. holds_lost where no forces satisfy the modes. */
-enum holds_found holds_share(struct hold_problem *problem);
-
-/* If consistent forces (holds_agree) are very large, check that they satisfy the modes, by holds_share;
- * holds_lost if they do not. */
-enum holds_found holds_meet(struct hold_problem *problem);
-
-/* The number of solutions with different accelerations, by enumeration of all modes; the problem holds the
- * first. -1 when there are too many modes (over `most`), -2 when memory is out. */
-int holds_try_all(struct hold_problem *problem, size_t most);
-
-/* Is the motion of the present solution unique, by enumeration of all modes? Friction sticks where it can: a
- * solution that slips where another one sticks, in addition to all that it sticks at itself, does not count.
- * The modes of the problem are undefined afterwards. 1 or 0; -1 and -2 as above. */
-int holds_is_unique(struct hold_problem *problem, size_t most);
 
 #endif

@@ -10,8 +10,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "holds/trial.h"
-#include "numeric/svd.h"
+#include "numeric/qr.h"
+#include "numeric/tolerances.h"
 
 /* Limit of t by a + t b >= 0, where a counts as zero up to `zero`. */
 static double within(double limit, double a, double b, double zero, double least)
@@ -37,7 +37,7 @@ static double furthest_of(const struct hold_problem *problem, size_t i, const do
     const double zero = rounding * size, least = rounding * most;
     if (hold->mode != hold_keeps) {
         double weight = holds_weight(problem, i), way = hold->mode * weight;
-        double none = rounding * problem->beside_c;
+        double none = rounding * problem->size;
         if (holds_is_on_open(problem, hold) || weight == 0) return t;
         return within(t, way * hold->c, way * answer_to(problem, i, z), none, least / weight);
     }
@@ -70,35 +70,52 @@ static bool has_none(const struct hold *hold)
     return hold->kind == hold_friction && hold->press == press_hold && hold->mu_s == 0;
 }
 
+/* Scaled forces, f = weight g, make the least change independent of units. */
 static double scale_of(const struct hold_problem *problem, size_t i)
 {
     double weight = holds_weight(problem, i);
-    return weight > 0 ? weight : 1; /* as in share.c: f = weight g */
+    return weight > 0 ? weight : 1;
 }
 
-static bool find_open(struct trial *trial, struct svd *svd)
+/* Row i of M f = right for the modes: c_i = 0 of closed or sticking constraints, f_i = 0 of open ones, f_i + mode mu_k P = 0
+ * of slipping ones. */
+static void set_row(const struct hold_problem *problem, size_t i, double *row)
 {
-    const struct hold_problem *problem = trial->problem;
-    size_t n = problem->count;
-    trial_set_system(trial, 0);
-    for (size_t i = 0; i < n; i++) {
-        double *row = trial->A + i * n;
-        for (size_t j = 0; j < n; j++) row[j] *= scale_of(problem, j);
-        if (!has_none(&problem->holds[i])) continue;
-        for (size_t j = 0; j < n; j++) row[j] = i == j;
+    const struct hold *hold = &problem->holds[i];
+    bool holds = hold->mode == hold_keeps && !holds_is_on_open(problem, hold) && !has_none(hold);
+    double most = 0;
+    for (size_t j = 0; j < problem->count; j++)
+        row[j] = holds ? problem->A[i * problem->count + j] : (double)(j == i);
+    if (hold->mode != hold_keeps && hold->kind == hold_friction && hold->press == press_hold)
+        row[hold->presses] += hold->mode * hold->mu_k;
+    for (size_t j = 0; j < problem->count; j++) {
+        row[j] *= scale_of(problem, j);
+        most = fmax(most, fabs(row[j]));
     }
-    return svd_decompose(svd, n, n, trial->A);
+    for (size_t j = 0; j < problem->count && most > 0; j++) row[j] /= most;
+}
+
+/* Orthonormal null vectors of M, row by row; their number, or -1 when memory is out. */
+static int find_open(const struct hold_problem *problem, double *M, double *null)
+{
+    size_t n = problem->count;
+    struct qr qr;
+    for (size_t i = 0; i < n; i++) set_row(problem, i, M + i * n);
+    bool made = qr_decompose(&qr, n, n, M, singular_value_zero);
+    if (made) qr_set_orthonormal_null(&qr, null);
+    qr_free(&qr);
+    return made ? (int)(n - qr.rank) : -1;
 }
 
 /* Project a unit force at constraint i onto the null space. False where the projection vanishes. */
-static bool project(const struct hold_problem *problem, const struct svd *svd, size_t i, double *z)
+static bool project(const struct hold_problem *problem, const double *null, int open, size_t i, double *z)
 {
     const double rounding = 1e-9;
     size_t n = problem->count;
     double most = 0;
     for (size_t j = 0; j < n; j++) {
         double sum = 0;
-        for (size_t k = 0; k < n - svd->rank; k++) sum += svd_null(svd, i, k) * svd_null(svd, j, k);
+        for (size_t k = 0; k < (size_t)open; k++) sum += null[k * n + i] * null[k * n + j];
         z[j] = scale_of(problem, j) * sum;
         most = fmax(most, fabs(sum));
     }
@@ -108,19 +125,17 @@ static bool project(const struct hold_problem *problem, const struct svd *svd, s
 int holds_other_forces(struct hold_problem *problem, double *steps)
 {
     size_t n = problem->count;
-    struct trial trial;
-    struct svd svd = {0};
-    int found = 0;
-    bool made = trial_new(&trial, problem) && find_open(&trial, &svd);
-    for (size_t i = 0; made && svd.rank < n && i < n; i++) {
+    double *M = calloc(2 * n * n + n + 1, sizeof *M), *null = M ? M + n * n : NULL,
+           *z = M ? null + n * n : NULL;
+    int open = M ? find_open(problem, M, null) : -1, found = 0;
+    for (size_t i = 0; open > 0 && i < n; i++) {
         if (problem->holds[i].kind != hold_one_sided || problem->holds[i].mode != hold_keeps) continue;
-        bool open = project(problem, &svd, i, trial.f);
-        for (int side = -1; open && side <= 1; side += 2) {
-            for (size_t j = 0; j < n; j++) trial.f[j] *= -1;
-            if (set_step(problem, trial.f, steps + (size_t)found * n)) found++;
+        bool moves = project(problem, null, open, i, z);
+        for (int side = -1; moves && side <= 1; side += 2) {
+            for (size_t j = 0; j < n; j++) z[j] *= -1;
+            if (set_step(problem, z, steps + (size_t)found * n)) found++;
         }
     }
-    svd_free(&svd);
-    trial_free(&trial);
-    return made ? found : -1;
+    free(M);
+    return open >= 0 ? found : -1;
 }

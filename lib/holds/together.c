@@ -41,8 +41,7 @@ struct together {
     bool several;       /* other modes give other velocities */
 };
 
-/* Friction of slides, whose guides follow `first` others. */
-static void set_slides(struct together *together, size_t first)
+static void set_slides(struct together *together)
 {
     const struct impacts *impacts = together->impacts;
     size_t n = (size_t)impacts_size(impacts), slides = (size_t)impacts->slides;
@@ -52,18 +51,17 @@ static void set_slides(struct together *together, size_t first)
         along->kind = hold_friction;
         along->mu_s = along->mu_k = impacts->slide[i].mu;
         along->press = press_guide;
-        along->presses = (int)(first + i);
-        problem->guides[first + i].two_sided = impacts->slide[i].two_sided;
+        along->presses = (int)i;
+        problem->guides[i].two_sided = impacts->slide[i].two_sided;
     }
-    if (slides > 0) memcpy(problem->B + first * n, impacts->B, slides * n * sizeof(double));
+    if (slides > 0) memcpy(problem->B, impacts->B, slides * n * sizeof(double));
 }
 
-static bool together_new(struct together *together, const struct impacts *impacts, bool guides)
+static bool together_new(struct together *together, const struct impacts *impacts)
 {
     size_t count = (size_t)impacts->count, n = (size_t)impacts_size(impacts);
-    size_t own = guides ? count : 0; /* of the points */
     *together = (struct together){.impacts = impacts};
-    if (!holds_new(&together->problem, n, own + (size_t)impacts->slides)) return false;
+    if (!holds_new(&together->problem, n, (size_t)impacts->slides)) return false;
     together->compressed = calloc(4 * n + 1, sizeof(double));
     if (!together->compressed) return false;
     together->P = together->compressed + n;
@@ -75,11 +73,10 @@ static bool together_new(struct together *together, const struct impacts *impact
         along->kind = hold_friction;
         along->mu_s = along->mu_k = impacts->points[i].mu;
         along->slip = impacts->points[i].slips;
-        along->press = guides ? press_guide : press_hold;
-        along->presses = (int)(guides ? i : 2 * i);
-        if (guides) together->problem.B[i * n + 2 * i] = 1;
+        along->press = press_hold;
+        along->presses = (int)(2 * i);
     }
-    set_slides(together, own);
+    set_slides(together);
     return true;
 }
 
@@ -93,9 +90,8 @@ static enum impacts_end decide(struct together *together)
 {
     enum holds_found found = holds_decide(&together->problem);
     together->several = found == holds_several;
-    if (found == holds_decided || found == holds_several) found = holds_share(&together->problem);
     if (found == holds_no_memory) return impacts_no_memory;
-    return found == holds_decided ? impacts_done : impacts_unsolvable;
+    return found <= holds_several ? impacts_done : impacts_unsolvable;
 }
 
 /* Set the velocity of closed or sticking constraints to exactly zero. */
@@ -134,7 +130,7 @@ static bool is_no_impulse(const struct together *together, int row)
 {
     const double rounding = 1e-9;
     const struct hold_problem *problem = &together->problem;
-    double most = problem->beside_c * holds_weight(problem, (size_t)row);
+    double most = problem->size * holds_weight(problem, (size_t)row);
     for (int k = 0; k < 2 * together->impacts->count; k += 2) most = fmax(most, together->P[k]);
     return together->P[row] <= rounding * most;
 }
@@ -150,10 +146,10 @@ static enum impacts_end restore(struct together *together, double share)
     for (int i = 0; i < count; i++) {
         int row = 2 * i;
         given[row] = is_no_impulse(together, row) ? 0 : share * impacts->points[i].e * together->P[row];
-        together->problem.guides[i].free = given[row];
+        together->problem.holds[row + 1].preload = given[row];
     }
     for (int k = 0; k < impacts->slides; k++) {
-        double *N = &together->problem.guides[count + k].free;
+        double *N = &together->problem.guides[k].free;
         *N = 0;
         for (int i = 0; i < n; i++) *N += impacts->B[k * n + i] * given[i];
     }
@@ -303,7 +299,7 @@ static enum impacts_end try_step(const struct together *first, const struct toge
     const struct impacts *impacts = first->impacts;
     const size_t n = (size_t)impacts_size(impacts);
     struct together other;
-    enum impacts_end end = together_new(&other, impacts, true) ? impacts_done : impacts_no_memory;
+    enum impacts_end end = together_new(&other, impacts) ? impacts_done : impacts_no_memory;
     if (end == impacts_done) {
         memcpy(other.compressed, first->compressed, n * sizeof *other.compressed);
         add_impulses(impacts, step, other.compressed);
@@ -312,7 +308,7 @@ static enum impacts_end try_step(const struct together *first, const struct toge
     }
     if (end == impacts_done && !*several && second) {
         memcpy(other.compressed, first->compressed, n * sizeof *other.compressed);
-        other.problem.beside_c = before;
+        other.problem.size = before;
         end = restore_by_law(&other);
         *several |= end == impacts_done && are_others(impacts, second->v, other.v, before);
     }
@@ -340,14 +336,14 @@ static enum impacts_end look_for_others(struct together *first, struct together 
 enum impacts_end impacts_together(struct impacts *impacts, double before)
 {
     struct together first, second = {0};
-    bool made_room = together_new(&first, impacts, false);
-    first.problem.beside_c = before;
+    bool made_room = together_new(&first, impacts);
+    first.problem.size = before;
     enum impacts_end end = made_room ? compress(&first) : impacts_no_memory;
     bool restores = end == impacts_done && has_restitution(impacts);
     if (restores) {
-        end = together_new(&second, impacts, true) ? impacts_done : impacts_no_memory;
+        end = together_new(&second, impacts) ? impacts_done : impacts_no_memory;
         if (end == impacts_done) {
-            second.problem.beside_c = before;
+            second.problem.size = before;
             memcpy(second.compressed, first.compressed, 2 * (size_t)impacts_size(impacts) * sizeof(double));
             end = restore_by_law(&second);
         }

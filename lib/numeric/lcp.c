@@ -3,9 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "numeric/lu.h"
 #include "numeric/tolerances.h"
 #include "numeric/vector.h"
 
@@ -17,11 +15,8 @@ struct tableau {
     size_t *basic;          /* of each row */
     size_t *other;          /* of each column */
     size_t *place;          /* 2 n + 1: the row of each basic variable, n + the column of each other one */
-    double *row, *column;   /* n each: scale factors of rows and columns */
     double *pivots, *ratio; /* n each: the column of the entering variable; ratios of tied rows */
     size_t *tied;           /* n: rows that are tied */
-    double size;            /* largest entry of q */
-    double zero;            /* pivots that are round-off */
 };
 
 static double *row_of(const struct tableau *tableau, size_t i)
@@ -35,26 +30,6 @@ static void tableau_free(struct tableau *tableau)
     free(tableau->basic);
 }
 
-/* Divide rows and columns alternately by the roots of their largest entries (Ruiz 2001). */
-static void equilibrate(struct tableau *tableau, const double *M, int rounds)
-{
-    size_t n = tableau->n;
-    for (size_t i = 0; i < n; i++) tableau->row[i] = tableau->column[i] = 1;
-    for (int round = 0; round < 2 * rounds; round++) {
-        bool rows = round % 2 == 0;
-        double *own = rows ? tableau->row : tableau->column;
-        const double *other = rows ? tableau->column : tableau->row;
-        for (size_t i = 0; i < n; i++) {
-            double most = 0;
-            for (size_t k = 0; k < n; k++) {
-                double a = rows ? M[i * n + k] : M[k * n + i];
-                if (a != 0) most = fmax(most, fabs(a) / (own[i] * other[k]));
-            }
-            if (most > 0) own[i] *= sqrt(most);
-        }
-    }
-}
-
 /* The entries of the column that makes the start feasible: ones, or others between 1/4 and 7/4. */
 static double cover_of(int cover, size_t i)
 {
@@ -62,30 +37,25 @@ static double cover_of(int cover, size_t i)
     return cover == 0 ? 1 : 0.25 + 1.5 * fmod(golden * cover * (double)(i + 1), 1);
 }
 
-/* `rounds` of equilibration. */
-static bool tableau_new(struct tableau *tableau, size_t n, const double *M, const double *q, int cover,
-                        int rounds)
+static bool tableau_new(struct tableau *tableau, size_t n, const double *M, const double *q, int cover)
 {
-    *tableau = (struct tableau){.n = n, .width = n + 2, .zero = lcp_zero};
-    tableau->T = calloc(n * tableau->width + 4 * n + 1, sizeof *tableau->T);
+    *tableau = (struct tableau){.n = n, .width = n + 2};
+    tableau->T = calloc(n * tableau->width + 2 * n + 1, sizeof *tableau->T);
     tableau->basic = calloc(5 * n + 2, sizeof *tableau->basic);
     if (!tableau->T || !tableau->basic) return false;
     tableau->other = tableau->basic + n;
     tableau->place = tableau->other + n + 1;
-    tableau->row = tableau->T + n * tableau->width;
-    tableau->column = tableau->row + n;
-    tableau->pivots = tableau->column + n;
-    tableau->ratio = tableau->pivots + n;
     tableau->tied = tableau->place + 2 * n + 1;
-    equilibrate(tableau, M, rounds);
-    for (size_t i = 0; i < n; i++) tableau->size = fmax(tableau->size, fabs(q[i]) / tableau->row[i]);
-    if (tableau->size == 0) tableau->size = 1;
+    tableau->pivots = tableau->T + n * tableau->width;
+    tableau->ratio = tableau->pivots + n;
+    double size = 0;
+    for (size_t i = 0; i < n; i++) size = fmax(size, fabs(q[i]));
     for (size_t i = 0; i < n; i++) {
         double *row = row_of(tableau, i);
         for (size_t k = 0; k < n; k++)
-            if (M[i * n + k] != 0) row[k] = -M[i * n + k] / (tableau->row[i] * tableau->column[k]);
+            if (M[i * n + k] != 0) row[k] = -M[i * n + k];
         row[n] = -cover_of(cover, i);
-        row[n + 1] = q[i] / (tableau->row[i] * tableau->size);
+        row[n + 1] = q[i] / (size > 0 ? size : 1);
         tableau->basic[i] = tableau->place[i] = i;
     }
     for (size_t k = 0; k <= n; k++) {
@@ -134,7 +104,7 @@ static size_t keep_least(const struct tableau *tableau, size_t k, size_t count)
                    tableau->pivots[i];
         least = fmin(least, ratio[t]);
     }
-    double most = least + tableau->zero * (1 + fabs(least));
+    double most = least + lcp_zero * (1 + fabs(least));
     for (size_t t = 0; t < count; t++)
         if (ratio[t] <= most) tied[kept++] = tied[t];
     return kept;
@@ -147,7 +117,7 @@ static size_t leaving_row(const struct tableau *tableau, size_t entering)
     size_t n = tableau->n, count = 0;
     for (size_t i = 0; i < n; i++) {
         tableau->pivots[i] = row_of(tableau, i)[entering];
-        if (tableau->pivots[i] > tableau->zero) tableau->tied[count++] = i;
+        if (tableau->pivots[i] > lcp_zero) tableau->tied[count++] = i;
     }
     if (count == 0) return n;
     count = keep_least(tableau, n, count);
@@ -188,89 +158,11 @@ static enum lcp run(struct tableau *tableau)
     return lcp_lost;
 }
 
-/* Solve A x = b, with x in b; false when A is singular to rounding. */
-static bool solve(size_t n, double *A, size_t *pivot, double *b)
-{
-    bool regular = lu_decompose(n, A, pivot);
-    double least = HUGE_VAL, most = 0;
-    for (size_t i = 0; i < n; i++) {
-        least = fmin(least, fabs(A[i * n + i]));
-        most = fmax(most, fabs(A[i * n + i]));
-    }
-    regular = regular && least > negligible_part * most;
-    if (regular) lu_solve(n, A, pivot, b);
-    return regular;
-}
-
-/* Recompute the basic solution from the original problem, without the rounding of the pivots. */
-static bool polish(const struct tableau *tableau, const double *M, const double *q, double *z, double *w)
-{
-    size_t n = tableau->n;
-    double *A = calloc(n * n + n + 1, sizeof *A), *x = A ? A + n * n : NULL;
-    size_t *pivot = calloc(n + 1, sizeof *pivot);
-    bool *is_z = calloc(n + 1, sizeof *is_z), made = A && pivot && is_z;
-    for (size_t i = 0; made && i < n; i++)
-        if (tableau->basic[i] >= n && tableau->basic[i] < 2 * n) is_z[tableau->basic[i] - n] = true;
-    for (size_t i = 0; made && i < n; i++) {
-        x[i] = q[i] / tableau->row[i];
-        for (size_t k = 0; k < n; k++)
-            A[i * n + k] = is_z[k] ? -M[i * n + k] / (tableau->row[i] * tableau->column[k]) : i == k;
-    }
-    if (made && solve(n, A, pivot, x)) {
-        for (size_t k = 0; k < n; k++) {
-            z[k] = is_z[k] ? x[k] / tableau->column[k] : 0;
-            w[k] = is_z[k] ? 0 : x[k] * tableau->row[k];
-        }
-    } else if (made) {
-        memset(z, 0, n * sizeof *z);
-        memset(w, 0, n * sizeof *w);
-        for (size_t i = 0; i < n; i++) {
-            size_t k = tableau->basic[i];
-            double value = row_of(tableau, i)[n + 1] * tableau->size;
-            if (k < n) w[k] = value * tableau->row[k];
-            if (k >= n && k < 2 * n) z[k - n] = value / tableau->column[k - n];
-        }
-    }
-    free(A);
-    free(pivot);
-    free(is_z);
-    return made;
-}
-
-/* Is it a solution, to rounding? */
-static bool fits(const struct tableau *tableau, const double *z, const double *w)
-{
-    double most = 1;
-    for (size_t i = 0; i < tableau->n; i++)
-        most = fmax(most, fabs(z[i]) * tableau->column[i] / tableau->size);
-    for (size_t i = 0; i < tableau->n; i++) {
-        double least = fmin(z[i] * tableau->column[i], w[i] / tableau->row[i]) / tableau->size;
-        if (!(least >= -lcp_residual * most)) return false;
-    }
-    return true;
-}
-
 enum lcp lcp_find_basis(size_t n, const double *M, const double *q, int cover, bool *is_basic)
 {
     struct tableau tableau;
-    enum lcp found = lcp_no_memory;
-    if (tableau_new(&tableau, n, M, q, cover, 0)) {
-        tableau.zero = lcp_basis_zero;
-        found = run(&tableau);
-    }
+    enum lcp found = tableau_new(&tableau, n, M, q, cover) ? run(&tableau) : lcp_no_memory;
     for (size_t k = 0; k < n && found == lcp_solved; k++) is_basic[k] = tableau.place[n + k] < n;
-    tableau_free(&tableau);
-    return found;
-}
-
-enum lcp lcp_solve(size_t n, const double *M, const double *q, int cover, double *z, double *w)
-{
-    enum { rounds = 6 };
-    struct tableau tableau;
-    enum lcp found = lcp_no_memory;
-    if (tableau_new(&tableau, n, M, q, cover, rounds)) found = run(&tableau);
-    if (found == lcp_solved && !polish(&tableau, M, q, z, w)) found = lcp_no_memory;
-    if (found == lcp_solved && !fits(&tableau, z, w)) found = lcp_lost;
     tableau_free(&tableau);
     return found;
 }

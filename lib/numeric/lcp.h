@@ -5,9 +5,7 @@
  * Lemke's method (Cottle, Pang and Stone, The Linear Complementarity Problem, section 4.4): an additional
  * unknown z_0 with a column of ones makes the start feasible, and pivots on the complement of the variable
  * that has just left the basis remove it. Ties between rows are broken by the lexicographic rule, so that it
- * cannot cycle: redundant constraints, as the feet of a block, always tie. Rows and columns are scaled first,
- * which changes neither signs nor complementarity; so accelerations, forces and moments may be combined in
- * one problem.
+ * cannot cycle: redundant constraints, as the feet of a block, always tie.
  *
  * It ends in a solution, or in a ray. For a positive semi-definite M, as of constraints without friction, a
  * ray means that there is no solution; with friction it usually does.
@@ -25,12 +23,9 @@ enum lcp {
     lcp_no_memory
 };
 
-/* M is n by n, row by row; z and w take n. In a solution z_i = 0 or w_i = 0 exactly. Start number `cover` (0: the column of
- * ones): if one start ends in a ray or fails by rounding, another may succeed. */
-enum lcp lcp_solve(size_t n, const double *M, const double *q, int cover, double *z, double *w);
-
-/* The same, but only which z_k are basic in the solution; the others are zero. O(n^2) for each pivot. M and q are of one size
- * already: they are not scaled. */
+/* Which z_k are basic in the solution; the others are zero. O(n^2) for each pivot. M is n by n, row by row; its entries, and
+ * those of q, are of one size. Start number `cover` (0: the column of ones): if one start ends in a ray or fails by rounding,
+ * another may succeed. */
 enum lcp lcp_find_basis(size_t n, const double *M, const double *q, int cover, bool *is_basic);
 
 #endif

@@ -37,7 +37,9 @@ static uint64_t key_of_contents(const struct pivoting_row *row)
 {
     uint64_t key = with_number(with_number(0, row->b), row->low);
     key = with_number(with_number(key, row->high), row->low_share);
-    return mixed(with_number(key, row->high_share), row->of >= 0);
+    key = with_number(with_number(key, row->high_share), row->loss);
+    key = mixed(with_number(key, row->slips), row->load);
+    return mixed(key, row->of >= 0);
 }
 
 /* Sums do not depend on the order of neighbours. */
@@ -140,7 +142,9 @@ static double scale_of(const struct pivoting_problem *problem, size_t i)
 
 static bool block_new(struct pivoting_block *block, const struct pivoting_problem *problem, size_t most)
 {
-    *block = (struct pivoting_block){.rows = calloc(most + 1, sizeof *block->rows)};
+    *block = (struct pivoting_block){.rows = calloc(most + 1, sizeof *block->rows),
+                                     .size = problem->size,
+                                     .basic = problem->basic};
     block->A = calloc(most * (most + 1) + 1, sizeof *block->A);
     block->scale = block->A ? block->A + most * most : NULL;
     block->from = calloc(most + 1, sizeof *block->from);
@@ -158,13 +162,16 @@ static void block_free(struct pivoting_block *block)
     pivoting_fit_free(block->fit);
 }
 
+/* The loss of a row that slips already reduces its limits. */
 static void scale_row(struct pivoting_row *row, double own, double of)
 {
+    double part = row->slips != 0 ? 1 - row->loss : 1;
+    if (row->slips != 0) row->loss = 0;
     row->b *= own;
-    row->low /= own;
-    row->high /= own;
-    row->low_share *= of / own;
-    row->high_share *= of / own;
+    row->low *= part / own;
+    row->high *= part / own;
+    row->low_share *= part * of / own;
+    row->high_share *= part * of / own;
 }
 
 /* Fill the block with the rows of block `number`. */
@@ -211,6 +218,7 @@ static bool let_all_carry(struct pivoting_block *block)
     bool changed = false;
     for (size_t i = 0; i < block->n; i++) {
         struct pivoting_row *row = &block->rows[i];
+        if (row->load != load_is_force) continue;
         int mode = row->w > 0 ? at_low : row->w < 0 ? at_high : between;
         changed |= row->mode != mode;
         row->mode = mode;
@@ -218,8 +226,7 @@ static bool let_all_carry(struct pivoting_block *block)
     return changed;
 }
 
-/* The forces of the modes; if these are not final, those of the modes that the accelerations have, or the former ones. */
-static bool fit_all(struct pivoting_block *block, struct pivoting_row *kept)
+bool pivoting_fit_all(struct pivoting_block *block, struct pivoting_row *kept)
 {
     if (!pivoting_fit(block)) return false;
     memcpy(kept, block->rows, block->n * sizeof *kept);
@@ -231,6 +238,7 @@ static bool fit_all(struct pivoting_block *block, struct pivoting_row *kept)
 
 static bool has_wrong_sign(const struct pivoting_row *row)
 {
+    if (row->load != load_is_force) return false;
     return row->mode == at_high ? row->w > 0 : row->mode == at_low && row->w < 0;
 }
 
@@ -256,7 +264,7 @@ static bool fit_nearby(struct pivoting_block *block, struct pivoting_row *kept)
 {
     size_t most = 4 + block->n / 4;
     for (size_t round = 0; round < most; round++) {
-        if (fit_all(block, kept)) return true;
+        if (pivoting_fit_all(block, kept)) return true;
         repair(block);
     }
     return false;
@@ -269,76 +277,70 @@ static enum pivoting follow_path(struct pivoting_block *block, struct pivoting_r
         enum lcp found = pivoting_lemke(block, cover);
         if (found == lcp_no_memory) return pivoting_no_memory;
         if (found != lcp_solved) continue;
+        if (block->basic && pivoting_fit(block)) return pivoting_unexamined;
         pivoting_guess(block);
         (void)let_all_carry(block);
-        if (fit_all(block, kept)) return pivoting_unexamined;
+        if (pivoting_fit_all(block, kept)) return pivoting_unexamined;
     }
     return pivoting_ray;
 }
 
-static bool has_shares(const struct pivoting_block *block)
+/* Hold the rows that slip at their limits less the loss. Returns whether there are more of them. */
+static bool hold_slipping(struct pivoting_block *block)
 {
-    for (size_t i = 0; i < block->n; i++)
-        if (block->rows[i].low_share != 0 || block->rows[i].high_share != 0) return true;
-    return false;
-}
-
-/* The next combination of modes in the order of counting; false after the last one. */
-static bool next_modes(struct pivoting_block *block)
-{
+    bool any = false;
     for (size_t i = 0; i < block->n; i++) {
         struct pivoting_row *row = &block->rows[i];
-        bool last =
-            row->mode == at_high || (row->mode == between && row->high == HUGE_VAL) || pivoting_is_fixed(row);
-        if (!last) {
-            row->mode++;
-            return true;
-        }
-        row->mode = row->low == -HUGE_VAL ? between : at_low;
+        if (row->loss == 0 || row->slips != 0 || row->w == 0 || row->x == 0) continue;
+        row->slips = row->w > 0 ? at_low : at_high;
+        any = true;
     }
-    return false;
+    return any;
 }
 
-static bool differs(const struct pivoting_block *block, const struct pivoting_row *other)
+/* Release them again. Do all of them slip in the direction of their force? */
+static bool release_slipping(struct pivoting_block *block)
 {
-    double level = block->level * (pivoting_difference / pivoting_residual);
-    for (size_t i = 0; i < block->n; i++)
-        if (fabs(block->rows[i].w - other[i].w) > level) return true;
-    return false;
+    bool agree = true;
+    for (size_t i = 0; i < block->n; i++) {
+        struct pivoting_row *row = &block->rows[i];
+        if (row->loss == 0) continue;
+        agree &= row->slips * row->w <= 0;
+        row->slips = 0;
+    }
+    return agree;
 }
 
-/* Enumerate all modes. The block holds the solution `found` before, or the first one. */
-static enum pivoting enumerate(struct pivoting_block *block, enum pivoting found)
+static enum pivoting find(struct pivoting_block *block, struct pivoting_row *kept)
 {
-    struct pivoting_row first[pivoting_few];
-    size_t bytes = block->n * sizeof *first;
-    enum pivoting result = found == pivoting_ray ? pivoting_none : pivoting_solved;
-    memcpy(first, block->rows, bytes);
-    for (size_t i = 0; i < block->n; i++)
-        block->rows[i].mode = block->rows[i].low == -HUGE_VAL ? between : at_low;
-    do {
-        struct pivoting_row kept[pivoting_few], other[pivoting_few];
-        memcpy(kept, block->rows, bytes);
-        bool fits = fit_all(block, other);
-        if (fits && result == pivoting_none) {
-            memcpy(first, block->rows, bytes);
-            result = pivoting_solved;
-        }
-        if (fits && differs(block, first)) result = pivoting_several;
-        memcpy(block->rows, kept, bytes);
-    } while (next_modes(block));
-    memcpy(block->rows, first, bytes);
-    return result;
+    enum pivoting found;
+    do found = !block->basic && fit_nearby(block, kept) ? pivoting_unexamined : follow_path(block, kept);
+    while (found == pivoting_unexamined && hold_slipping(block));
+    bool agree = release_slipping(block);
+    return found == pivoting_unexamined && !agree ? pivoting_ray : found;
+}
+
+/* Rows that are no loads; and may there be several solutions? */
+static size_t count_forces(const struct pivoting_block *block, bool *several)
+{
+    size_t count = 0;
+    *several = false;
+    for (size_t i = 0; i < block->n; i++) {
+        const struct pivoting_row *row = &block->rows[i];
+        *several |= row->low_share != 0 || row->high_share != 0 || (row->loss > 0 && block->n > 1);
+        count += row->load == load_is_force;
+    }
+    return count;
 }
 
 static enum pivoting block_solve(struct pivoting_block *block, bool examine, struct pivoting_row *kept)
 {
-    enum pivoting found = fit_nearby(block, kept) ? pivoting_unexamined : follow_path(block, kept);
+    bool several;
+    enum pivoting found = find(block, kept);
+    bool few = count_forces(block, &several) <= pivoting_few;
     if (found == pivoting_no_memory) return found;
-    if (!has_shares(block) && found == pivoting_unexamined) found = pivoting_solved;
-    if (block->n <= pivoting_few && found != pivoting_solved && (examine || found == pivoting_ray))
-        found = enumerate(block, found);
-    return found;
+    if (found == pivoting_unexamined && !several) return pivoting_solved;
+    return found == pivoting_ray || (examine && few) ? pivoting_enumerate(block, found, kept) : found;
 }
 
 enum pivoting pivoting_solve(struct pivoting_problem *problem)

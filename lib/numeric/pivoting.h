@@ -14,7 +14,11 @@
  *     equality (joint)                     -infinity, infinity
  *     fixed (kinetic friction, side s)     0, 0 with both shares s mu: w_i is then of any sign, and the problem unsymmetric
  *
- * Row k has no shares of its own, and low >= 0.
+ * Row k has no shares of its own, and low >= 0; or it is an equality whose multiplier, the normal force of a guide, may have
+ * either sign: `load` sets what replaces x_k in the limits of others.
+ *
+ * Limits fall by the part `loss` where w_i is not zero: static above kinetic friction. The rows that slip are found with the
+ * limits as they are, then get their loss, and the others are decided again.
  *
  * Modes that the caller supplies are tried first (pivoting_modes.c). Else Lemke's path leads from all forces at their
  * limits to a basis (lcp.h; Cottle, Pang and Stone, The Linear Complementarity Problem, section 4.4), whose modes are solved
@@ -24,9 +28,11 @@
  * units. Rows that do not touch are solved independently, each block in an order by its contents: the order in which rows
  * are supplied does not change a bit of the result (unless rows cannot be distinguished by their contents at all).
  *
- * Without shares the accelerations w are unique. With friction there may be several solutions, or none. A block of at most
- * pivoting_few rows is enumerated where Lemke's path ends in a ray, and where `examine` demands it: that proves `several`
- * and `none`. Of larger blocks a ray proves nothing.
+ * Without shares and losses the accelerations w are unique. With friction there may be several solutions, or none. A block of
+ * at most pivoting_few rows is enumerated where `examine` demands it, and one of at most pivoting_most_modes combinations of
+ * modes where Lemke's path ends in a ray: that proves `several` and `none`. Of larger blocks a ray proves nothing. By its law a
+ * row with a loss may also slip where it can stick; a solution that slips where another one sticks, in addition to all rows
+ * that stick in it, does not count.
  */
 #ifndef FBD_NUMERIC_PIVOTING_H
 #define FBD_NUMERIC_PIVOTING_H
@@ -34,24 +40,31 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { pivoting_few = 8 };
+enum { pivoting_few = 8, pivoting_most_modes = 70000 }; /* of eight contacts with friction */
 
 enum pivoting_mode { at_low = -1, between = 0, at_high = 1 };
+
+enum pivoting_load { load_is_force, load_of_both_sides, load_of_one_side }; /* x_k, |x_k|, max(0, x_k) */
 
 struct pivoting_row {
     double b; /* w without forces */
     double low, high;
     int of;
     double low_share, high_share;
-    int mode;    /* enum pivoting_mode: where to start; then: sign of -w, `between` where w = 0 */
-    double x, w; /* found; w = 0 exactly where it is round-off */
+    double loss; /* 0 to 1 */
+    int slips;   /* enum pivoting_mode: held at this limit, less its loss, with w of any sign; 0: it is not */
+    enum pivoting_load load; /* of an equality */
+    int mode;                /* enum pivoting_mode: where to start; then: sign of -w, `between` where w = 0 */
+    double x, w;             /* found; w = 0 exactly where it is round-off */
 };
 
 struct pivoting_problem {
     size_t count;
     struct pivoting_row *rows;
     const double *A; /* count x count, row by row */
+    bool basic;      /* the forces of a basis, as many as can be at their limits, in place of the least */
     bool examine;    /* enumerate all solutions of blocks of at most pivoting_few rows */
+    double size;     /* a size of w / sqrt(A_ii) relative to which w may be round-off, beside that of b */
 };
 
 /* In the order of their weight: of several blocks the last one counts. */

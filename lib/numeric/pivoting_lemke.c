@@ -6,6 +6,7 @@
  *     upper limit only      x = high + high_share x_k - z    y ⟂ z
  *     both                  x = low + low_share x_k + z      y + z'' ⟂ z,   z'' ⟂ upper limit - x
  *     fixed                 x = low + low_share x_k
+ *     load                  as with a limit at zero on the side of its present sign
  *
  * (Glocker, Set-Valued Force Laws, 2001, chapter 8). Rows without limits are eliminated by principal pivots first; those
  * that depend on others keep x = 0.
@@ -31,12 +32,12 @@ static const size_t none = (size_t)-1;
 
 static bool has_low(const struct pivoting_row *row)
 {
-    return row->low > -HUGE_VAL;
+    return pivoting_limit(row, false) > -HUGE_VAL;
 }
 
 static bool has_high(const struct pivoting_row *row)
 {
-    return row->high < HUGE_VAL;
+    return pivoting_limit(row, true) < HUGE_VAL;
 }
 
 static bool has_none(const struct pivoting_row *row)
@@ -114,15 +115,14 @@ static size_t largest_pivot(const struct path *path)
 /* Add `factor` x_j, as a function of the unknowns, to a row of M and q. */
 static void add_multiplier(const struct path *path, size_t j, double factor, double *row, double *q)
 {
-    const struct pivoting_row *rows = path->block->rows, *own = &rows[j];
-    bool low = has_low(own);
-    double share = factor * (low ? own->low_share : own->high_share);
+    const struct pivoting_row *own = &path->block->rows[j];
+    bool high = own->slips != 0 ? own->slips == at_high : !has_low(own);
+    double part = factor * pivoting_part(path->block, own);
     if (has_none(own)) return; /* eliminated, or zero */
-    *q += factor * (low ? own->low : own->high);
-    if (path->first[j] != none) row[path->first[j]] += low ? factor : -factor;
-    if (own->of < 0) return;
-    *q += share * rows[own->of].low;
-    if (path->first[own->of] != none) row[path->first[own->of]] += share;
+    *q += part * pivoting_limit(own, high);
+    if (path->first[j] != none) row[path->first[j]] += high ? -factor : factor;
+    double share = own->of >= 0 ? part * pivoting_share(path->block, own, high) : 0;
+    if (share != 0) add_multiplier(path, (size_t)own->of, share, row, q);
 }
 
 static void set_row(struct path *path, size_t i)
@@ -139,15 +139,16 @@ static void set_row(struct path *path, size_t i)
     row += m;
     row[k] = -1;
     path->q[k + 1] = own->high - own->low;
-    if (own->of >= 0)
-        add_multiplier(path, (size_t)own->of, own->high_share - own->low_share, row, &path->q[k + 1]);
+    double share = pivoting_share(path->block, own, true) - pivoting_share(path->block, own, false);
+    if (own->of >= 0) add_multiplier(path, (size_t)own->of, share, row, &path->q[k + 1]);
 }
 
 static int mode_at_end(const struct path *path, size_t i)
 {
     const struct pivoting_row *row = &path->block->rows[i];
     size_t k = path->first[i];
-    if (k == none) return has_none(row) ? between : at_low;
+    if (k == none) return row->slips != 0 ? row->slips : has_none(row) ? between : at_low;
+    if (row->load != load_is_force) return (path->is_basic[k] ? 1 : -1) * (has_low(row) ? 1 : -1);
     if (!path->is_basic[k]) return has_low(row) ? at_low : at_high;
     return has_low(row) && has_high(row) && path->is_basic[k + 1] ? at_high : between;
 }

@@ -65,21 +65,27 @@ struct fit *pivoting_fit_new(size_t most)
 
 /* ---- rows at their limits, and rows between */
 
-static double limit_of(const struct pivoting_row *row, bool high, double *share)
+/* The side of the limit at which a row is. */
+static bool is_high(const struct pivoting_row *row)
 {
-    *share = high ? row->high_share : row->low_share;
-    return high ? row->high : row->low;
+    return (row->slips != 0 ? row->slips : row->mode) == at_high;
+}
+
+/* How far its limits are apart, but for the share of a row that is between its own. */
+static bool has_range(const struct fit *fit, const struct pivoting_row *row)
+{
+    double shares = pivoting_share(fit->block, row, true) - pivoting_share(fit->block, row, false);
+    if (row->of >= 0 && fit->place[row->of] < fit->block->n && shares != 0) return true;
+    double range = pivoting_limit(row, true) - pivoting_limit(row, false);
+    return range + (row->of >= 0 ? shares * fit->base[row->of] : 0) > 0;
 }
 
 /* Is the row between its limits? Not where these coincide, as of friction without a normal force. */
-static bool is_between(const struct fit *fit, size_t i)
+static bool is_between(const struct fit *fit, const struct pivoting_row *row)
 {
-    const struct pivoting_row *row = &fit->block->rows[i];
-    double share, limit = limit_of(row, row->mode == at_high, &share);
     if (pivoting_is_fixed(row)) return false;
-    if (row->mode != between && fabs(limit) < HUGE_VAL) return false;
-    if (row->of < 0 || fit->place[row->of] < fit->block->n) return true;
-    return row->high + row->high_share * fit->base[row->of] > row->low + row->low_share * fit->base[row->of];
+    if (row->mode != between && fabs(pivoting_limit(row, is_high(row))) < HUGE_VAL) return false;
+    return has_range(fit, row);
 }
 
 static void set_place(struct fit *fit, size_t i)
@@ -88,16 +94,16 @@ static void set_place(struct fit *fit, size_t i)
     size_t n = fit->block->n;
     fit->place[i] = n;
     fit->base[i] = fit->gain[i] = 0;
-    fit->is_loose[i] = pivoting_is_fixed(row);
-    if (is_between(fit, i)) {
+    if (is_between(fit, row)) {
         fit->place[i] = fit->set.n;
         fit->row[fit->set.n++] = i;
         return;
     }
-    fit->base[i] = limit_of(row, row->mode == at_high, &fit->gain[i]);
+    double part = pivoting_part(fit->block, row);
+    fit->is_loose[i] = pivoting_is_fixed(row) || !has_range(fit, row);
+    fit->base[i] = part * pivoting_limit(row, is_high(row));
+    fit->gain[i] = part * pivoting_share(fit->block, row, is_high(row));
     if (row->of < 0 || fit->place[row->of] < n) return;
-    double range = row->high - row->low + (row->high_share - row->low_share) * fit->base[row->of];
-    fit->is_loose[i] |= range <= 0;
     fit->base[i] += fit->gain[i] * fit->base[row->of];
     fit->gain[i] = 0;
 }
@@ -192,7 +198,8 @@ static bool bound_at(const struct fit *fit, size_t index, struct bound *bound)
     size_t a = index / 2, n = fit->block->n;
     bool high = index % 2 == 1;
     const struct pivoting_row *row = &fit->block->rows[fit->row[a]];
-    double side = high ? -1 : 1, share, limit = limit_of(row, high, &share);
+    double side = high ? -1 : 1, limit = pivoting_limit(row, high),
+           share = pivoting_share(fit->block, row, high);
     *bound = (struct bound){.a = a, .k = fit->set.n, .coefficient = side, .least = side * limit};
     if (fabs(limit) == HUGE_VAL) return false;
     if (row->of < 0) return true;
@@ -244,8 +251,8 @@ static void set_forces(struct fit *fit, bool limited)
             double of = coupled ? block->rows[row->of].x : 0;
             row->x = fit->place[i] < n ? fit->set.x[fit->place[i]] : fit->base[i] + fit->gain[i] * of;
             if (fit->place[i] == n || !limited) continue;
-            row->x = fmin(row->x, row->high + row->high_share * of);
-            row->x = fmax(row->x, row->low + row->low_share * of);
+            row->x = fmin(row->x, pivoting_limit(row, true) + pivoting_share(block, row, true) * of);
+            row->x = fmax(row->x, pivoting_limit(row, false) + pivoting_share(block, row, false) * of);
         }
 }
 
@@ -258,14 +265,19 @@ static bool has_sign(const struct fit *fit, size_t i)
     return row->mode == at_high ? row->w <= level : row->w >= -level;
 }
 
+double pivoting_level(const struct pivoting_block *block, const struct pivoting_row *rows)
+{
+    double square = 0;
+    for (size_t i = 0; i < block->n; i++) square += rows[i].x * rows[i].x;
+    return pivoting_residual * (block->size + sqrt(square));
+}
+
 static bool set_accelerations(struct fit *fit)
 {
     struct pivoting_block *block = fit->block;
     size_t n = block->n;
-    double square = 0;
     bool fits = true;
-    for (size_t i = 0; i < n; i++) square += block->rows[i].x * block->rows[i].x;
-    block->level = pivoting_residual * (block->size + sqrt(square));
+    block->level = pivoting_level(block, block->rows);
     for (size_t i = 0; i < n; i++) {
         struct pivoting_row *row = &block->rows[i];
         row->w = row->b;

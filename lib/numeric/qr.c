@@ -146,6 +146,22 @@ void qr_add_solution(const struct qr *qr, double *b, double *x)
     for (size_t k = 0; k < qr->rank; k++) x[qr->column[k]] += b[k];
 }
 
+/* Modified Gram-Schmidt, with reorthogonalisation. */
+void qr_set_orthonormal_null(const struct qr *qr, double *rows)
+{
+    const size_t n = qr->cols, count = n - qr->rank;
+    for (size_t k = 0; k < count; k++) {
+        double *own = rows + k * n;
+        for (size_t j = 0; j < n; j++) own[j] = qr_null(qr, j, k);
+        for (size_t l = 0; l < 2 * k; l++) {
+            const double *other = rows + l % k * n;
+            vector_add_multiple(own, other, -vector_dot(own, other, n), n);
+        }
+        double size = sqrt(vector_dot(own, own, n));
+        for (size_t j = 0; j < n; j++) own[j] /= size;
+    }
+}
+
 void qr_divide_by_triangle(const struct qr *qr, const double *z, double *w)
 {
     size_t first = 0; /* components before it are zero */

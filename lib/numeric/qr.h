@@ -3,11 +3,10 @@
  * Rank, null vectors and solutions of a small dense matrix of any shape.
  *
  * A P = Q R by Householder reflections, choosing in each step the column with the largest remainder (Businger
- * and Golub 1965; Golub and Van Loan, Matrix Computations, section 5.4.2). In contrast to singular values
- * (svd.h) the null vectors are neither orthogonal nor of length one; but each of them combines one dependent
- * column with columns of the basis, and so has entries only where its equations have. A subsequent singular
- * value decomposition has only as many columns as there are null vectors. Measured: faster than singular
- * values.
+ * and Golub 1965; Golub and Van Loan, Matrix Computations, section 5.4.2). In contrast to singular vectors the
+ * null vectors are neither orthogonal nor of length one; but each of them combines one dependent column with
+ * columns of the basis, and so has entries only where its equations have. Where orthonormal ones are needed
+ * they are made of these, which costs far less than singular values where they are few.
  */
 #ifndef FBD_NUMERIC_QR_H
 #define FBD_NUMERIC_QR_H
@@ -32,6 +31,9 @@ void qr_free(struct qr *qr);
 
 /* x += a least-squares solution of |A x - b|: zero outside the columns of the basis. b is overwritten. */
 void qr_add_solution(const struct qr *qr, double *b, double *x);
+
+/* cols - rank rows of `cols`: the null vectors, made orthonormal. */
+void qr_set_orthonormal_null(const struct qr *qr, double *rows);
 
 /* w = the row vector with w R = z P: zero beyond the rank. A P R^-1 has orthonormal columns. */
 void qr_divide_by_triangle(const struct qr *qr, const double *z, double *w);

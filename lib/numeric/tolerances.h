@@ -48,9 +48,8 @@ static const double contact_level = 1e-8;
 
 /* ---- linear algebra */
 
-/* Linear complementarity: entries of the scaled tableau that are zero, after some and after some hundred pivots; and the
- * residual of a solution by the matrix itself, which may lose four more digits by its condition. */
-static const double lcp_zero = 1e-11, lcp_basis_zero = 1e-9, lcp_residual = 1e-7;
+/* Linear complementarity: entries of the tableau that are zero, after some hundred pivots. */
+static const double lcp_zero = 1e-9;
 
 /* Pivoting: equations that depend on others, and inequalities that are violated, relative to the largest; accelerations that
  * are zero, which have ten times that by the equations that were left out; and accelerations of two solutions that differ. */

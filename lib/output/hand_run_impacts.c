@@ -12,13 +12,15 @@
  * in which they act is not known.
  */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "dynamics/constraint.h"
 #include "dynamics/contact.h"
 #include "dynamics/friction.h"
 #include "dynamics/impulse.h"
-#include "numeric/svd.h"
+#include "numeric/qr.h"
+#include "numeric/tolerances.h"
 #include "output/hand_run_judge.h"
 
 struct hand_impact {
@@ -151,14 +153,24 @@ static double value_of(const struct hand_impact *impact, size_t k)
 /* ---- the whole */
 
 /* How much the values change along the null vectors, which are as large as the impulses. */
-static void set_open(struct hand_impact *impact, const struct svd *svd)
+static void set_open(struct hand_impact *impact, size_t count, const double *null, size_t open)
 {
     const struct fbd_model *model = impact->run->model;
     memset(impact->open, 0, model->absolute_count * sizeof *impact->open);
-    for (size_t v = svd->rank; v < svd->cols; v++) {
-        set_multipliers(impact, &svd->V[v * svd->cols]);
+    for (size_t v = 0; v < open; v++) {
+        set_multipliers(impact, null + v * count);
         for (size_t k = 0; k < model->absolute_count; k++)
             if (is_integral(model, k)) impact->open[k] += fabs(impact->largest * value_of(impact, k));
+    }
+}
+
+/* Remove from the impulses their part along the null vectors. */
+static void set_least(struct hand_impact *impact, size_t count, const double *null, size_t open)
+{
+    for (size_t v = 0; v < open; v++) {
+        double share = 0;
+        for (size_t j = 0; j < count; j++) share += null[v * count + j] * impact->P[j];
+        for (size_t j = 0; j < count; j++) impact->P[j] -= share * null[v * count + j];
     }
 }
 
@@ -168,24 +180,31 @@ static bool solve(struct hand_impact *impact)
     const double rounding = 1e-9;
     const size_t n = (size_t)impact->run->model->plan.n,
                  count = (size_t)impact->row_count + (size_t)impact->slide_count;
-    double *jump = impact->answers + count * n, size = 0;
-    struct svd svd;
+    double *jump = impact->answers + count * n, *used = calloc(n + count * count + 1, sizeof *used);
+    double *null = used + n, size = 0;
+    struct qr qr = {0};
     for (size_t i = 0; i < n; i++) {
         jump[i] = impact->after[i] - impact->before[i];
         size = fmax(size, fabs(impact->after[i]) + fabs(impact->before[i]));
         for (size_t j = 0; j < count; j++) impact->columns[i * count + j] = impact->answers[j * n + i];
     }
-    const bool done = svd_decompose(&svd, n, count, impact->columns);
+    const bool done = used && qr_decompose(&qr, n, count, impact->columns, singular_value_zero);
     memset(impact->P, 0, count * sizeof *impact->P);
-    if (done) svd_add_solution(&svd, jump, impact->P);
+    if (done) {
+        memcpy(used, jump, n * sizeof *used);
+        qr_add_solution(&qr, used, impact->P);
+        qr_set_orthonormal_null(&qr, null);
+        set_least(impact, count, null, count - qr.rank);
+    }
     impact->largest = 0;
     for (size_t j = 0; j < count; j++) impact->largest = fmax(impact->largest, fabs(impact->P[j]));
     for (size_t i = 0; i < n; i++) {
         for (size_t j = 0; j < count; j++) jump[i] -= impact->columns[i * count + j] * impact->P[j];
         impact->explained = impact->explained && fabs(jump[i]) <= rounding * size;
     }
-    if (done) set_open(impact, &svd);
-    svd_free(&svd);
+    if (done) set_open(impact, count, null, count - qr.rank);
+    qr_free(&qr);
+    free(used);
     return done;
 }
 

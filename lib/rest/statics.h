@@ -5,7 +5,7 @@
  * The multipliers lambda of the constraints are the only unknowns: joint reactions, friction and drive forces
  * are affine functions of them (dynamics/statics.h). So
  *
- *     E lambda = -Q_0     for the free coordinates, by singular values (moments over a length);
+ *     E lambda = -Q_0     for the free coordinates, by orthogonal reflections (moments over a length);
  *
  * where E has null vectors z the scene is statically indeterminate, and the reactions r = r_0 + R lambda are
  * chosen with the least sum of squares (couples over the length), subject to N >= 0, |F| <= mu_s N and T >=

@@ -3,13 +3,12 @@
  * Named results of statics: the indeterminate reactions, and the forces that would balance a scene that is
  * not in equilibrium.
  */
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_linalg.h>
 #include <math.h>
 
 #include "fbd_study.h"
 #include "model/labels.h"
-#include "numeric/svd.h"
+#include "numeric/qr.h"
+#include "numeric/tolerances.h"
 #include "rest/statics.h"
 
 /* ---- indeterminate reactions */
@@ -127,51 +126,32 @@ static void hold_each(struct fbd_statics *statics, const struct rest_system *sys
 
 /* A single possible motion: a force along any coordinate of it balances. */
 static void hold_alone(struct fbd_statics *statics, const struct rest_system *system, const size_t *free,
-                       const struct svd *ways)
+                       size_t count, const double *motion)
 {
     double work = 0, most = 0;
-    for (size_t i = 0; i < ways->cols; i++) {
-        work += svd_null(ways, i, 0) * system->scale[free[i]] * system->Q[free[i]];
-        most = fmax(most, fabs(svd_null(ways, i, 0)));
+    for (size_t i = 0; i < count; i++) {
+        work += motion[i] * system->scale[free[i]] * system->Q[free[i]];
+        most = fmax(most, fabs(motion[i]));
     }
-    for (size_t i = 0; i < ways->cols; i++) {
-        double share = svd_null(ways, i, 0);
-        if (fabs(share) >= hardly * most) add_holding(statics, system, free[i], -work / share, true);
-    }
+    for (size_t i = 0; i < count; i++)
+        if (fabs(motion[i]) >= hardly * most) add_holding(statics, system, free[i], -work / motion[i], true);
 }
 
-/* Several possible motions: as many coordinates, chosen by QR decomposition with pivoting. */
+/* Several possible motions: as many coordinates, those of the basis of their columns. */
 static bool hold_together(struct fbd_statics *statics, const struct rest_system *system, const size_t *free,
-                          const struct svd *ways)
+                          size_t count, const double *motions, size_t d)
 {
-    size_t count = ways->cols, d = count - ways->rank;
-    gsl_matrix *NT = gsl_matrix_alloc(d, count);
-    gsl_vector *tau = gsl_vector_alloc(d), *norm = gsl_vector_alloc(count);
-    gsl_permutation *order = gsl_permutation_alloc(count);
-    double *square = ARENA_ARRAY(&statics->arena, d * d, double),
-           *work = ARENA_ARRAY(&statics->arena, d, double);
-    double *h = ARENA_ARRAY(&statics->arena, d, double);
-    bool made = NT && tau && norm && order && square && work && h;
-    for (size_t w = 0; made && w < d; w++)
-        for (size_t i = 0; i < count; i++) {
-            gsl_matrix_set(NT, w, i, svd_null(ways, i, w));
-            work[w] -= svd_null(ways, i, w) * system->scale[free[i]] * system->Q[free[i]];
-        }
-    int sign;
-    made = made && gsl_linalg_QRPT_decomp(NT, tau, order, &sign, norm) == GSL_SUCCESS;
-    for (size_t w = 0; made && w < d; w++)
-        for (size_t c = 0; c < d; c++) square[w * d + c] = svd_null(ways, gsl_permutation_get(order, c), w);
-    struct svd chosen = {0};
-    made = made && svd_decompose(&chosen, d, d, square);
-    if (made) svd_add_solution(&chosen, work, h);
-    for (size_t c = 0; made && c < d; c++)
-        if (fabs(h[c]) > rest_digits * system->force)
-            add_holding(statics, system, free[gsl_permutation_get(order, c)], h[c], false);
-    svd_free(&chosen);
-    if (NT) gsl_matrix_free(NT);
-    if (tau) gsl_vector_free(tau);
-    if (norm) gsl_vector_free(norm);
-    if (order) gsl_permutation_free(order);
+    double *work = ARENA_ARRAY(&statics->arena, d, double), *h = ARENA_ARRAY(&statics->arena, count, double);
+    struct qr qr = {0};
+    bool made = work && h && qr_decompose(&qr, d, count, motions, singular_value_zero);
+    for (size_t k = 0; made && k < d; k++)
+        for (size_t i = 0; i < count; i++)
+            work[k] -= motions[k * count + i] * system->scale[free[i]] * system->Q[free[i]];
+    if (made) qr_add_solution(&qr, work, h);
+    for (size_t c = 0; made && c < qr.rank; c++)
+        if (fabs(h[qr.column[c]]) > rest_digits * system->force)
+            add_holding(statics, system, free[qr.column[c]], h[qr.column[c]], false);
+    qr_free(&qr);
     return made;
 }
 
@@ -195,10 +175,13 @@ bool rest_find_unbalanced(struct fbd_statics *statics, const struct rest_system 
     }
     for (size_t j = 0; j < m; j++)
         for (size_t k = 0; k < count; k++) ET[j * count + k] = system->E[free[k] * m + j];
-    struct svd ways;
-    bool made = svd_decompose(&ways, m, count, ET);
-    if (made && count - ways.rank == 1) hold_alone(statics, system, free, &ways);
-    if (made && count - ways.rank > 1) made = hold_together(statics, system, free, &ways);
-    svd_free(&ways);
+    struct qr qr;
+    double *motions = ARENA_ARRAY(&statics->arena, count * count + 1, double);
+    bool made = motions && qr_decompose(&qr, m, count, ET, singular_value_zero);
+    if (!made) return false;
+    qr_set_orthonormal_null(&qr, motions);
+    if (count - qr.rank == 1) hold_alone(statics, system, free, count, motions);
+    if (count - qr.rank > 1) made = hold_together(statics, system, free, count, motions, count - qr.rank);
+    qr_free(&qr);
     return made;
 }

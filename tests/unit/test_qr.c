@@ -13,7 +13,6 @@
 #include <stdlib.h>
 
 #include "numeric/qr.h"
-#include "numeric/svd.h"
 #include "random_numbers.h"
 
 enum { most = 30 };
@@ -38,34 +37,49 @@ static double row_times(const double *a, size_t cols, size_t i, const double *x)
     return sum;
 }
 
-/* Both leave the same rest, which is unique where solutions are not. */
-static void check_solution(struct random_numbers *numbers, const struct qr *qr, const struct svd *svd,
-                           const double *a)
+/* Rounding, by the condition. */
+static double slack_of(const struct qr *qr)
 {
-    double b[most] = {0}, used[most] = {0}, x[most] = {0}, least[most] = {0};
-    double slack = 1e-12 * svd->S[0] / svd->S[svd->rank - 1]; /* rounding, by the condition */
-    for (size_t i = 0; i < qr->rows; i++) b[i] = used[i] = random_between(numbers, -1, 1);
-    qr_add_solution(qr, used, x);
-    svd_add_solution(svd, b, least);
-    for (size_t i = 0; i < qr->rows; i++)
-        assert_true(fabs(row_times(a, qr->cols, i, x) - row_times(a, qr->cols, i, least)) < slack);
+    double last = qr->R[(qr->rank - 1) * qr->rows + qr->rank - 1];
+    return 1e-12 * fabs(qr->R[0] / last);
 }
 
-static void check_null_vectors(const struct qr *qr, const struct svd *svd, const double *a)
+/* What a solution leaves is orthogonal to all columns. */
+static void check_solution(struct random_numbers *numbers, const struct qr *qr, const double *a)
 {
-    double slack = 1e-13 * svd->S[0] / svd->S[svd->rank - 1];
-    for (size_t k = 0; k < qr->cols - qr->rank; k++) {
+    double b[most] = {0}, used[most] = {0}, x[most] = {0};
+    for (size_t i = 0; i < qr->rows; i++) b[i] = used[i] = random_between(numbers, -1, 1);
+    qr_add_solution(qr, used, x);
+    for (size_t i = 0; i < qr->rows; i++) b[i] -= row_times(a, qr->cols, i, x);
+    for (size_t j = 0; j < qr->cols; j++) {
+        double sum = 0;
+        for (size_t i = 0; i < qr->rows; i++) sum += a[i * qr->cols + j] * b[i];
+        assert_true(fabs(sum) < slack_of(qr));
+    }
+}
+
+static void check_null_vectors(const struct qr *qr, const double *a)
+{
+    const size_t n = qr->cols, open = n - qr->rank;
+    double rows[most * most];
+    qr_set_orthonormal_null(qr, rows);
+    for (size_t k = 0; k < open; k++) {
         double z[most] = {0};
         int own = 0;
-        for (size_t j = 0; j < qr->cols; j++) z[j] = qr_null(qr, j, k);
-        for (size_t i = 0; i < qr->rows; i++) assert_true(fabs(row_times(a, qr->cols, i, z)) < slack);
-        for (size_t l = 0; l < qr->cols - qr->rank; l++) /* one that is its own: so they are independent */
+        for (size_t j = 0; j < n; j++) z[j] = qr_null(qr, j, k);
+        for (size_t i = 0; i < qr->rows; i++) {
+            assert_true(fabs(row_times(a, n, i, z)) < slack_of(qr));
+            assert_true(fabs(row_times(a, n, i, rows + k * n)) < slack_of(qr));
+        }
+        for (size_t l = 0; l < open; l++) { /* one that is its own: so they are independent */
             own += qr_null(qr, qr->column[qr->rank + k], l) != 0;
+            assert_true(fabs(row_times(rows, n, k, rows + l * n) - (k == l)) < 1e-14);
+        }
         assert_int_equal(own, 1);
     }
 }
 
-static void ranks_solutions_and_null_vectors_are_those_of_singular_values(void **unused)
+static void ranks_solutions_and_null_vectors_are_those_of_the_matrix(void **unused)
 {
     (void)unused;
     static const size_t shapes[][3] = {{1, 1, 1},  {5, 3, 3},    {3, 5, 3},    {6, 6, 4},   {20, 8, 5},
@@ -75,15 +89,12 @@ static void ranks_solutions_and_null_vectors_are_those_of_singular_values(void *
         for (int trial = 0; trial < 20; trial++) {
             double a[most * most] = {0};
             struct qr qr;
-            struct svd svd;
             fill(&numbers, shapes[i][0], shapes[i][1], shapes[i][2], a);
             assert_true(qr_decompose(&qr, shapes[i][0], shapes[i][1], a, 1e-10));
-            assert_true(svd_decompose(&svd, shapes[i][0], shapes[i][1], a));
             assert_int_equal(qr.rank, shapes[i][2]);
-            check_null_vectors(&qr, &svd, a);
-            check_solution(&numbers, &qr, &svd, a);
+            check_null_vectors(&qr, a);
+            check_solution(&numbers, &qr, a);
             qr_free(&qr);
-            svd_free(&svd);
         }
 }
 
@@ -151,7 +162,7 @@ static void rows_divided_by_the_triangle_have_orthonormal_columns(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ranks_solutions_and_null_vectors_are_those_of_singular_values),
+        cmocka_unit_test(ranks_solutions_and_null_vectors_are_those_of_the_matrix),
         cmocka_unit_test(null_vectors_touch_only_what_their_equations_touch),
         cmocka_unit_test(nothing_and_zero_have_rank_zero),
         cmocka_unit_test(rows_divided_by_the_triangle_have_orthonormal_columns),

@@ -65,14 +65,13 @@ static void a_hold_breaks_above_its_limit(void **unused)
     (void)unused;
     assert_true(holds_new(&problem, 1, 0));
     problem.A[0] = 1;
-    problem.holds[0] = (struct hold){
-        .kind = hold_friction, .free = 10, .mu_s = 10, .mu_k = 8, .press = press_constant, .force = -10};
-    assert_int_equal(holds_breach(&problem, 0), hold_breaks_nothing);
-    assert_true(holds_agree(&problem));
+    problem.holds[0] =
+        (struct hold){.kind = hold_friction, .free = 10, .mu_s = 10, .mu_k = 8, .press = press_constant};
+    assert_int_equal(holds_decide(&problem), holds_decided);
+    assert_true(problem.holds[0].mode == hold_keeps && fabs(problem.holds[0].force + 10) < 1e-14);
     problem.holds[0].free = 10.00001;
-    problem.holds[0].force = -10.00001;
-    assert_int_equal(holds_breach(&problem, 0), hold_overloaded);
-    assert_false(holds_agree(&problem));
+    assert_int_equal(holds_decide(&problem), holds_decided);
+    assert_true(problem.holds[0].mode == hold_gives && problem.holds[0].force == -8);
     holds_free(&problem);
 }
 
