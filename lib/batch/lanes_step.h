@@ -40,7 +40,7 @@ INLINE struct unit turned(struct unit r, wide x, wide y)
     return (struct unit){r.x * x - r.y * y, r.y * x + r.x * y};
 }
 
-/* tree_short.c, tree_two_pivots */
+/* tree_bare.c, two_links */
 INLINE void swing_double(struct system *system, const wide *q, const wide *v, wide *a)
 {
     const wide *k = system->constants;

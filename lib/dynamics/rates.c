@@ -97,26 +97,6 @@ static struct row row_of_link(const struct rates *rates, int link)
     return (struct row){.function = alone_row, .all = rates, .q = first, .link = link};
 }
 
-static struct row row_of_bare_tree(const struct rates *rates)
-{
-    const struct fbd_model *model = rates->state->model;
-    const struct tree_link *links = &model->tree->links[1];
-    struct row row = {.function = bare_row,
-                      .all = rates,
-                      .links = links,
-                      .bare = &rates->state->tree->bare[1]};
-    switch (tree_bare_form(model)) {
-    case tree_form_pole:
-        row.function = pole_row;
-        row.pole = tree_pole_of(links);
-        break;
-    case tree_form_two_pivots: row.function = two_pivots_row; break;
-    case tree_form_three_pivots: row.function = three_pivots_row; break;
-    case tree_form_none: break;
-    }
-    return row;
-}
-
 static struct row row_of_loop(const struct rates *rates)
 {
     struct fbd_state *state = rates->state;
@@ -124,7 +104,6 @@ static struct row row_of_loop(const struct rates *rates)
     const struct instant at = state_instant(state);
     struct row row = {.function = tree_loop_is_steady(model) ? loop_row : driven_loop_row,
                       .all = rates,
-                      .links = &model->tree->links[1],
                       .loop = state->tree->loop};
     force_slots(model, &at, state->slots);
     tree_loop_forces(row.loop, &at, state->slots, row.along);
@@ -158,7 +137,8 @@ static bool bind_rows(struct rates *rates)
     if (state->tree->loops)
         rates->rows[rates->count++] = (struct row){.function = loops_row, .all = rates};
     else if (tree_is_bare(model))
-        rates->rows[rates->count++] = row_of_bare_tree(rates);
+        rates->rows[rates->count++] =
+            (struct row){.function = bare_row, .all = rates, .bare = state->tree->bare};
     else if (tree_joins(tree) || model->names_places)
         return false;
     for (int i = tree->joined; i < tree->count; i++) bind_alone(rates, i);
@@ -224,7 +204,7 @@ struct rates_census rates_census(const struct rates *rates)
                      : function == formulas_row                      ? &census.formulas
                      : function == alone_row                         ? &census.alone
                      : function == loops_row                         ? &census.loops
-                     : rates->rows[i].links                          ? &census.bare
+                     : function == bare_row                          ? &census.bare
                                                                      : &census.whole;
         (*count)++;
     }

@@ -152,44 +152,6 @@ int whole_row(double t, const double y[], double dydt[], void *params)
     return 0;
 }
 
-int bare_row(double t, const double y[], double dydt[], void *params)
-{
-    const struct row *row = params;
-    const struct fbd_state *state = row->all->state;
-    (void)t;
-    tree_bare_rates(state->model, state->tree, y, dydt);
-    return 0;
-}
-
-int pole_row(double t, const double y[], double dydt[], void *params)
-{
-    const struct row *row = params;
-    (void)t;
-    dydt[0] = y[2];
-    dydt[1] = y[3];
-    tree_pole(&row->pole, 0, 0, y, y + 2, dydt + 2);
-    return 0;
-}
-
-int two_pivots_row(double t, const double y[], double dydt[], void *params)
-{
-    const struct row *row = params;
-    (void)t;
-    dydt[0] = y[2];
-    dydt[1] = y[3];
-    tree_two_pivots(row->links, row->bare, y, y + 2, dydt + 2);
-    return 0;
-}
-
-int three_pivots_row(double t, const double y[], double dydt[], void *params)
-{
-    const struct row *row = params;
-    (void)t;
-    for (int i = 0; i < 3; i++) dydt[i] = y[3 + i];
-    tree_three_pivots(row->links, row->bare, y, y + 3, dydt + 3);
-    return 0;
-}
-
 /* Equal to the tree's result within rounding; near singular positions by the tree. */
 int loop_row(double t, const double y[], double dydt[], void *params)
 {

@@ -6,8 +6,8 @@
 #define FBD_DYNAMICS_RATES_ROW_H
 
 #include "dynamics/rates.h"
+#include "dynamics/tree_bare.h"
 #include "dynamics/tree_loop.h"
-#include "dynamics/tree_short.h"
 
 struct row {
     rates_function *function;
@@ -26,9 +26,7 @@ struct row {
     struct expr_part part;
     int u; /* its variable in y, -1 for t */
     bool one_part;
-    struct tree_pole pole;
-    const struct tree_link *links;
-    const struct tree_bare *bare;
+    struct tree_bare *bare;
     const struct tree_loop *loop;
     double along[3]; /* the loads along the links of the loop, if constant */
 };
@@ -41,7 +39,6 @@ struct rates {
 };
 
 rates_function steady_row, held_row, no_row, affine_row, sine_row, swing_row, part_row, formulas_row,
-    alone_row, whole_row, bare_row, pole_row, two_pivots_row, three_pivots_row, loop_row, driven_loop_row,
-    loops_row, own_row, all_rows;
+    alone_row, whole_row, bare_row, loop_row, driven_loop_row, loops_row, own_row, all_rows;
 
 #endif
