@@ -93,11 +93,19 @@ static bool is_quiet(const struct run *run)
            run->zeno_switches.end == HUGE_VAL && run->state->rest == 0;
 }
 
+/* A pendulum, with or without a damper. */
+static bool is_swing(const struct run *run)
+{
+    const struct row *row = run->system.inner.params;
+    return run->system.inner.function == scalar_row && row->s != 0 && row->c == 0 && row->c0 == 0 &&
+           row->kq == 0 && row->square == 0 && row->friction == 0 && row->formula_count == 0;
+}
+
 /* The equations of motion and method of a run; `motions` if it is of none of these kinds. */
 static enum lane_motion lane_motion_of(const struct run *run, const struct stepper_state_view *view)
 {
     const struct row *row = run->system.inner.params;
-    if (run->system.inner.function == swing_row && row->q == 0 && row->v == 1) {
+    if (is_swing(run) && row->q == 0 && row->v == 1) {
         if (view->type == step_nystrom) return swings;
         if (view->type == step_rk8pd) return swings_damped;
     }
@@ -138,7 +146,7 @@ static void put_links(const struct run *run, const struct tree_bare *bare, each_
 static void put_constants(const struct run *run, struct lanes *lanes, unsigned lane)
 {
     const struct row *row = run->system.inner.params;
-    if (run->system.inner.function == swing_row)
+    if (is_swing(run))
         put_swing(row, lanes->constants, lane);
     else
         put_links(run, row->bare, lanes->constants, lane);
