@@ -66,6 +66,13 @@ void batch_free(struct batch *batch)
 
 /* ---- suitable runs */
 
+static bool is_double_pendulum(const struct fbd_model *model)
+{
+    const struct tree *tree = model->tree;
+    return model->plan.n == 2 && tree_is_bare(model) && model->plan.affine_count == 0 &&
+           tree->links[1].kind == motion_pivot && tree->links[2].parent == 1;
+}
+
 /* Excludes excess precision in registers (FLT_EVAL_METHOD), which vectors do not have. */
 bool batch_suits(const struct fbd_model *model)
 {
@@ -73,8 +80,7 @@ bool batch_suits(const struct fbd_model *model)
     if (FLT_EVAL_METHOD != 0) return false;
     if (plan->own > 0 || plan->watch_count + plan->mode_count + plan->kink_count + plan->pole_count > 0)
         return false;
-    if (tree_joins(model->tree))
-        return plan->n == 2 && tree_is_bare(model) && tree_bare_form(model) == tree_form_two_pivots;
+    if (tree_joins(model->tree)) return is_double_pendulum(model);
     return plan->n == 1 && plan->equations[0].known && plan->equations[0].s != 0;
 }
 
@@ -87,18 +93,25 @@ static bool is_quiet(const struct run *run)
            run->zeno_switches.end == HUGE_VAL && run->state->rest == 0;
 }
 
+/* A pendulum, with or without a damper. */
+static bool is_swing(const struct run *run)
+{
+    const struct row *row = run->system.inner.params;
+    return run->system.inner.function == scalar_row && row->s != 0 && row->c == 0 && row->c0 == 0 &&
+           row->kq == 0 && row->square == 0 && row->friction == 0 && row->formula_count == 0;
+}
+
 /* The equations of motion and method of a run; `motions` if it is of none of these kinds. */
 static enum lane_motion lane_motion_of(const struct run *run, const struct stepper_state_view *view)
 {
     const struct row *row = run->system.inner.params;
-    if (run->system.inner.function == swing_row && row->q == 0 && row->v == 1) {
+    if (is_swing(run) && row->q == 0 && row->v == 1) {
         if (view->type == step_nystrom) return swings;
         if (view->type == step_rk8pd) return swings_damped;
     }
-    const bool in_order = row->links && row->links[0].coordinate == 0 && row->links[1].coordinate == 1;
-    return run->system.inner.function == two_pivots_row && in_order && view->type == step_rk8pd
-               ? swings_double
-               : motions;
+    if (run->system.inner.function != bare_row || view->type != step_rk8pd) return motions;
+    const bool in_order = run->model->tree->links[1].coordinate == 0;
+    return in_order && is_double_pendulum(run->model) ? swings_double : motions;
 }
 
 static void put_swing(const struct row *row, each_lane *c, unsigned lane)
@@ -108,18 +121,18 @@ static void put_swing(const struct row *row, each_lane *c, unsigned lane)
     c[swing_kv][lane] = row->kv;
 }
 
-static void put_links(const struct row *row, each_lane *c, unsigned lane)
+static void put_links(const struct run *run, const struct tree_bare *bare, each_lane *c, unsigned lane)
 {
-    const struct tree_link *first = &row->links[0], *last = &row->links[1];
+    const struct tree_link *first = &run->model->tree->links[1], *last = first + 1;
     c[first_along][lane] = first->along;
     c[first_sine][lane] = first->sine;
     c[first_cosine][lane] = first->cosine;
     c[first_I_O][lane] = first->I_O;
-    c[first_g][lane] = row->bare[0].g;
+    c[first_g][lane] = bare[1].g;
     c[last_along][lane] = last->along;
     c[last_sine][lane] = last->sine;
     c[last_cosine][lane] = last->cosine;
-    c[last_g][lane] = row->bare[1].g;
+    c[last_g][lane] = bare[2].g;
     c[last_at_x][lane] = last->at.x;
     c[last_at_y][lane] = last->at.y;
     c[last_moment_x][lane] = last->moment.x;
@@ -133,10 +146,10 @@ static void put_links(const struct row *row, each_lane *c, unsigned lane)
 static void put_constants(const struct run *run, struct lanes *lanes, unsigned lane)
 {
     const struct row *row = run->system.inner.params;
-    if (run->system.inner.function == swing_row)
+    if (is_swing(run))
         put_swing(row, lanes->constants, lane);
     else
-        put_links(row, lanes->constants, lane);
+        put_links(run, row->bare, lanes->constants, lane);
 }
 
 /* Copy the numbers of `from`, one for each component, to a lane; gather copies them back. */

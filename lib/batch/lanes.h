@@ -19,7 +19,7 @@ enum { most_lanes = 8, most_pairs = 2 };
 /* Constants of the equations of motion: of a simple pendulum (rates_row.h), */
 enum { swing_inverse, swing_s, swing_kv };
 
-/* and of the two links of a double pendulum (tree_short.c), with the torques in their joints. */
+/* and of the two links of a double pendulum (tree_bare.c), with the torques in their joints. */
 enum {
     first_along,
     first_sine,

@@ -27,12 +27,12 @@ INLINE void note_beyond(struct system *system, wide angle)
     system->beyond |= ~(size_of(angle) <= SINE_MOST);
 }
 
-/* rates_row.c, swing_row */
+/* rates_row.c, scalar_row */
 INLINE void swing(struct system *system, const wide *q, const wide *v, wide *a)
 {
     const wide *c = system->constants;
     note_beyond(system, q[0]);
-    a[0] = c[swing_inverse] * (c[swing_s] * sine_of(q[0]) - c[swing_kv] * v[0]);
+    a[0] = c[swing_inverse] * (0.0 - c[swing_kv] * v[0] + c[swing_s] * sine_of(q[0]));
 }
 
 INLINE struct unit turned(struct unit r, wide x, wide y)
@@ -40,7 +40,7 @@ INLINE struct unit turned(struct unit r, wide x, wide y)
     return (struct unit){r.x * x - r.y * y, r.y * x + r.x * y};
 }
 
-/* tree_short.c, tree_two_pivots */
+/* tree_bare.c, two_links */
 INLINE void swing_double(struct system *system, const wide *q, const wide *v, wide *a)
 {
     const wide *k = system->constants;

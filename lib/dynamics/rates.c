@@ -38,29 +38,11 @@ static double constant_friction(const struct fbd_state *state, int b)
 /* One formula of one part: F sin(w t) or the like. */
 static void take_part(struct row *row)
 {
-    row->one_part = row->formula_count == 1 && row->formulas[0].value.expr->part_count == 1;
-    if (!row->one_part) return;
-    row->scale = row->formulas[0].scale;
+    if (row->formula_count != 1 || row->formulas[0].value.expr->part_count != 1) return;
     const struct expr *expr = row->formulas[0].value.expr;
-    row->part = expr->parts[0];
-    row->u = row->part.variable < 0 ? -1 : expr->slots[row->part.variable] - 1;
-}
-
-static void choose(struct row *row)
-{
-    take_part(row);
-    if (row->formula_count > 0)
-        row->function = row->one_part && row->s == 0 && row->c == 0 ? part_row : formulas_row;
-    else if (row->c == 0 && row->s != 0 && row->c0 == 0 && row->kq == 0 && row->square == 0 &&
-             row->friction == 0)
-        row->function = swing_row;
-    else if (row->s != 0 || row->c != 0)
-        row->function = sine_row;
-    else if (row->kq != 0 || row->kv != 0 || row->square != 0)
-        row->function = affine_row;
-    else
-        row->function = steady_row;
-    row->steady = row->inverse * (row->c0 - row->friction);
+    row->part = &expr->parts[0];
+    row->scale = row->formulas[0].scale;
+    row->u = row->part->variable < 0 ? -1 : expr->slots[row->part->variable] - 1;
 }
 
 /* Written in place: a row is large. */
@@ -70,7 +52,8 @@ static void set_row(const struct rates *rates, int b, int coordinate, struct row
     const struct plan *plan = &state->model->plan;
     const struct scalar_equation *equation = &plan->equations[coordinate];
     const int friction = state->model->bodies[b].friction;
-    *row = (struct row){.all = rates,
+    *row = (struct row){.function = scalar_row,
+                        .all = rates,
                         .q = coordinate,
                         .v = plan->n + coordinate,
                         .inverse = plan->inverse_inertia[coordinate],
@@ -79,6 +62,7 @@ static void set_row(const struct rates *rates, int b, int coordinate, struct row
                         .kv = equation->kv,
                         .s = equation->s,
                         .c = equation->c,
+                        .turns = equation->s != 0 || equation->c != 0,
                         .square = equation->square};
     if (friction >= 0 && state->slip[friction] == stick) {
         row->function = held_row;
@@ -88,33 +72,14 @@ static void set_row(const struct rates *rates, int b, int coordinate, struct row
     row->formulas = plan->formulas + equation->formulas.first;
     row->formula_count = equation->formulas.count;
     row->friction = constant_friction(state, b);
-    choose(row);
+    row->has_others = row->square != 0 || row->formula_count > 0;
+    take_part(row);
 }
 
 static struct row row_of_link(const struct rates *rates, int link)
 {
     const int first = rates->state->model->tree->links[link].coordinate;
     return (struct row){.function = alone_row, .all = rates, .q = first, .link = link};
-}
-
-static struct row row_of_bare_tree(const struct rates *rates)
-{
-    const struct fbd_model *model = rates->state->model;
-    const struct tree_link *links = &model->tree->links[1];
-    struct row row = {.function = bare_row,
-                      .all = rates,
-                      .links = links,
-                      .bare = &rates->state->tree->bare[1]};
-    switch (tree_bare_form(model)) {
-    case tree_form_pole:
-        row.function = pole_row;
-        row.pole = tree_pole_of(links);
-        break;
-    case tree_form_two_pivots: row.function = two_pivots_row; break;
-    case tree_form_three_pivots: row.function = three_pivots_row; break;
-    case tree_form_none: break;
-    }
-    return row;
 }
 
 static struct row row_of_loop(const struct rates *rates)
@@ -124,7 +89,6 @@ static struct row row_of_loop(const struct rates *rates)
     const struct instant at = state_instant(state);
     struct row row = {.function = tree_loop_is_steady(model) ? loop_row : driven_loop_row,
                       .all = rates,
-                      .links = &model->tree->links[1],
                       .loop = state->tree->loop};
     force_slots(model, &at, state->slots);
     tree_loop_forces(row.loop, &at, state->slots, row.along);
@@ -158,7 +122,8 @@ static bool bind_rows(struct rates *rates)
     if (state->tree->loops)
         rates->rows[rates->count++] = (struct row){.function = loops_row, .all = rates};
     else if (tree_is_bare(model))
-        rates->rows[rates->count++] = row_of_bare_tree(rates);
+        rates->rows[rates->count++] =
+            (struct row){.function = bare_row, .all = rates, .bare = state->tree->bare};
     else if (tree_joins(tree) || model->names_places)
         return false;
     for (int i = tree->joined; i < tree->count; i++) bind_alone(rates, i);
@@ -215,17 +180,13 @@ struct rates_census rates_census(const struct rates *rates)
     struct rates_census census = {0};
     for (int i = 0; i < rates->count; i++) {
         rates_function *function = rates->rows[i].function;
-        int *count = function == own_row                             ? &census.own
-                     : function == steady_row                        ? &census.steady
-                     : function == held_row                          ? &census.held
-                     : function == affine_row                        ? &census.affine
-                     : function == sine_row || function == swing_row ? &census.sine
-                     : function == part_row                          ? &census.parts
-                     : function == formulas_row                      ? &census.formulas
-                     : function == alone_row                         ? &census.alone
-                     : function == loops_row                         ? &census.loops
-                     : rates->rows[i].links                          ? &census.bare
-                                                                     : &census.whole;
+        int *count = function == own_row      ? &census.own
+                     : function == scalar_row ? &census.scalar
+                     : function == held_row   ? &census.held
+                     : function == alone_row  ? &census.alone
+                     : function == loops_row  ? &census.loops
+                     : function == bare_row   ? &census.bare
+                                              : &census.whole;
         (*count)++;
     }
     return census;

@@ -4,17 +4,14 @@
  *
  * Between two events the modes are fixed, and most coordinates of bodies that stand alone have few terms: a block
  * that slides down a plane has a constant acceleration, a pendulum one sine. So each time the stepper starts, every
- * scalar equation (plan.h) becomes a row with a function for its terms only; the friction of a mode is a number in
- * it, and any other body that stands alone is one row. Jointed bodies are one row. Where their tree has no form of
+ * scalar equation (plan.h) becomes a row; the friction of a mode is a number in it, and any other body that stands
+ * alone is one row. Jointed bodies are one row. Where their tree has no form of
  * its own, all bodies are one row, by forward.h. A single row is called directly.
  *
  *   row          dv/dt                                                  for
- *   steady       a                                                      terms and friction constant
+ *   scalar       (c0 - kq q - kv v + s sin q + c cos q - k |v| v        constant friction; f: formulas, of which a
+ *                 + sum of scale f(t, q, v) - F) / m                    single c u^k or c sin(w u + p) is inline
  *   held         0, dx/dt = the speed of the surface                    stick on a surface of constant speed
- *   affine       (c0 - kq q - kv v - k |v| v - F) / m
- *   sine         (... + s sin q + c cos q - F) / m
- *   parts        (... + scale (sum of c u^k, c sin(w u + p)) - F) / m   one formula of this shape (expr/parts.h)
- *   formulas     (... + sum of scale f(t, q, v) - F) / m
  *   alone        tree_alone.c                                           other bodies that stand alone
  *   bare tree    tree_bare.h                                            pivots under gravity and the like
  *   loop         tree_loop.h                                            slider-cranks, four-bars
@@ -53,7 +50,7 @@ struct fbd_state *rates_state(void *params);
 
 /* The number of rows of each kind. */
 struct rates_census {
-    int steady, held, affine, sine, parts, formulas, alone, own, bare, loops, whole;
+    int scalar, held, alone, own, bare, loops, whole;
 };
 
 struct rates_census rates_census(const struct rates *rates);

@@ -9,15 +9,6 @@
 #include "dynamics/tree.h"
 #include "dynamics/user_states.h"
 
-int steady_row(double t, const double y[], double dydt[], void *params)
-{
-    const struct row *row = params;
-    (void)t;
-    dydt[row->q] = y[row->v];
-    dydt[row->v] = row->steady;
-    return 0;
-}
-
 int held_row(double t, const double y[], double dydt[], void *params)
 {
     const struct row *row = params;
@@ -35,66 +26,11 @@ int no_row(double t, const double y[], double dydt[], void *params)
     return 0;
 }
 
-static inline double affine_sum(const struct row *row, double q, double v)
-{
-    return row->c0 - row->kq * q - row->kv * v;
-}
-
-static inline double with_square_and_friction(const struct row *row, double v, double sum)
-{
-    if (row->square != 0) sum -= row->square * fabs(v) * v;
-    if (row->friction != 0) sum -= row->friction;
-    return sum;
-}
-
 static inline double sine_sum(const struct row *row, double q)
 {
     if (row->c == 0) return row->s * sine(q);
     if (row->s == 0) return row->c * cos(q);
     return row->s * sin(q) + row->c * cos(q);
-}
-
-int affine_row(double t, const double y[], double dydt[], void *params)
-{
-    const struct row *row = params;
-    double q = y[row->q], v = y[row->v];
-    (void)t;
-    dydt[row->q] = v;
-    dydt[row->v] = row->inverse * with_square_and_friction(row, v, affine_sum(row, q, v));
-    return 0;
-}
-
-int sine_row(double t, const double y[], double dydt[], void *params)
-{
-    const struct row *row = params;
-    double q = y[row->q], v = y[row->v];
-    (void)t;
-    dydt[row->q] = v;
-    dydt[row->v] = row->inverse * with_square_and_friction(row, v, affine_sum(row, q, v) + sine_sum(row, q));
-    return 0;
-}
-
-/* A pendulum, with or without a damper. */
-int swing_row(double t, const double y[], double dydt[], void *params)
-{
-    const struct row *row = params;
-    double q = y[row->q], v = y[row->v];
-    (void)t;
-    dydt[row->q] = v;
-    dydt[row->v] = row->inverse * (row->s * sine(q) - row->kv * v);
-    return 0;
-}
-
-int part_row(double t, const double y[], double dydt[], void *params)
-{
-    const struct row *row = params;
-    double q = y[row->q], v = y[row->v], sum = affine_sum(row, q, v);
-    if (row->square != 0) sum -= row->square * fabs(v) * v;
-    sum += row->scale * part_value(&row->part, row->u < 0 ? t : y[row->u]);
-    if (row->friction != 0) sum -= row->friction;
-    dydt[row->q] = v;
-    dydt[row->v] = row->inverse * sum;
-    return 0;
 }
 
 /* No switch is in a sliding mode where there are rows. */
@@ -105,19 +41,25 @@ static struct instant smooth_instant(const struct fbd_state *state, double t, co
     return at;
 }
 
-int formulas_row(double t, const double y[], double dydt[], void *params)
+/* Add drag and formulas; out of line, so that the others save no registers. */
+static __attribute__((noinline)) double add_others(const struct row *row, double t, const double *y, double sum)
 {
-    const struct row *row = params;
-    const struct fbd_state *state = row->all->state;
-    struct instant at = smooth_instant(state, t, y);
-    double q = y[row->q], v = y[row->v], sum = affine_sum(row, q, v);
-    if (row->s != 0 || row->c != 0) sum += sine_sum(row, q);
-    if (row->square != 0) sum -= row->square * fabs(v) * v;
+    if (row->square != 0) sum -= row->square * fabs(y[row->v]) * y[row->v];
+    if (row->part) return sum + row->scale * part_value(row->part, row->u < 0 ? t : y[row->u]);
+    struct instant at = smooth_instant(row->all->state, t, y);
     for (int i = 0; i < row->formula_count; i++)
         sum += row->formulas[i].scale * formula_value(&row->formulas[i].value, &at);
-    if (row->friction != 0) sum -= row->friction;
+    return sum;
+}
+
+int scalar_row(double t, const double y[], double dydt[], void *params)
+{
+    const struct row *row = params;
+    double q = y[row->q], v = y[row->v], sum = row->c0 - row->kq * q - row->kv * v;
+    if (row->turns) sum += sine_sum(row, q);
+    if (row->has_others) sum = add_others(row, t, y, sum);
     dydt[row->q] = v;
-    dydt[row->v] = row->inverse * sum;
+    dydt[row->v] = row->inverse * (sum - row->friction);
     return 0;
 }
 
@@ -149,44 +91,6 @@ int whole_row(double t, const double y[], double dydt[], void *params)
     at.tree->rates_only = !at.sliding;
     state_rates(state->model, &at, state->slots, dydt);
     at.tree->rates_only = false;
-    return 0;
-}
-
-int bare_row(double t, const double y[], double dydt[], void *params)
-{
-    const struct row *row = params;
-    const struct fbd_state *state = row->all->state;
-    (void)t;
-    tree_bare_rates(state->model, state->tree, y, dydt);
-    return 0;
-}
-
-int pole_row(double t, const double y[], double dydt[], void *params)
-{
-    const struct row *row = params;
-    (void)t;
-    dydt[0] = y[2];
-    dydt[1] = y[3];
-    tree_pole(&row->pole, 0, 0, y, y + 2, dydt + 2);
-    return 0;
-}
-
-int two_pivots_row(double t, const double y[], double dydt[], void *params)
-{
-    const struct row *row = params;
-    (void)t;
-    dydt[0] = y[2];
-    dydt[1] = y[3];
-    tree_two_pivots(row->links, row->bare, y, y + 2, dydt + 2);
-    return 0;
-}
-
-int three_pivots_row(double t, const double y[], double dydt[], void *params)
-{
-    const struct row *row = params;
-    (void)t;
-    for (int i = 0; i < 3; i++) dydt[i] = y[3 + i];
-    tree_three_pivots(row->links, row->bare, y, y + 3, dydt + 3);
     return 0;
 }
 

@@ -6,8 +6,8 @@
 #define FBD_DYNAMICS_RATES_ROW_H
 
 #include "dynamics/rates.h"
+#include "dynamics/tree_bare.h"
 #include "dynamics/tree_loop.h"
-#include "dynamics/tree_short.h"
 
 struct row {
     rates_function *function;
@@ -18,17 +18,16 @@ struct row {
     double c0, kq, kv;
     double s, c;
     double square;
-    double friction;     /* against +x, in the present mode */
-    double rate, steady; /* held: dx/dt; steady: dv/dt */
+    bool turns;      /* s or c is not zero */
+    bool has_others; /* square is not zero, or there are formulas */
+    double friction; /* against +x, in the present mode */
+    double rate;     /* held: dx/dt */
     const struct formula_term *formulas;
     int formula_count;
-    double scale; /* of a single formula with one part */
-    struct expr_part part;
-    int u; /* its variable in y, -1 for t */
-    bool one_part;
-    struct tree_pole pole;
-    const struct tree_link *links;
-    const struct tree_bare *bare;
+    const struct expr_part *part; /* of a single formula with one part, else NULL */
+    double scale;                 /* of that formula */
+    int u;                        /* its variable in y, -1 for t */
+    struct tree_bare *bare;
     const struct tree_loop *loop;
     double along[3]; /* the loads along the links of the loop, if constant */
 };
@@ -40,8 +39,7 @@ struct rates {
     struct row rows[];
 };
 
-rates_function steady_row, held_row, no_row, affine_row, sine_row, swing_row, part_row, formulas_row,
-    alone_row, whole_row, bare_row, pole_row, two_pivots_row, three_pivots_row, loop_row, driven_loop_row,
+rates_function scalar_row, held_row, no_row, alone_row, whole_row, bare_row, loop_row, driven_loop_row,
     loops_row, own_row, all_rows;
 
 #endif

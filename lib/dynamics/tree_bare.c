@@ -2,8 +2,8 @@
 #include "dynamics/tree_bare.h"
 
 #include "base/simd2_sine.h"
+#include "dynamics/rates_row.h"
 #include "dynamics/tree.h"
-#include "dynamics/tree_short.h"
 
 /* ---- conditions */
 
@@ -39,10 +39,12 @@ struct trajectory {
 /* All sines and cosines first, of two links at a time: values in registers do not survive a call. */
 static void turn_links(const struct tree_link *links, int count, const double *y, struct tree_bare *s)
 {
-    bool turns = links->kind == motion_pivot;
-    double angle = turns ? links->along + y[links->coordinate] : links->along;
-    int i = 1;
-    s->turn = turns ? unit_by_sine(angle) : links->tilt;
+    double angle = 0;
+    int i = 0;
+    if (links->kind == motion_slide) {
+        angle = links->along;
+        s[i++].turn = links->tilt;
+    }
     for (; i + 1 < count; i += 2) {
         double first = angle + links[i].along + y[links[i].coordinate];
         angle = first + links[i + 1].along + y[links[i + 1].coordinate];
@@ -154,35 +156,71 @@ static void chain(const struct tree_link *links, struct tree_bare *s, int count,
     }
 }
 
-static void any_chain(const struct tree_link *links, struct tree_bare *s, int count, const double *y,
+/* ---- two links
+ *
+ * Lagrange's equations in the angles of the links in the world. With d the vector from the O of the first link to
+ * that of the last, h the mass of the last times the vector to its centre, and C = d . h, X = d x h, the last row
+ *
+ *     I alpha = tau - C alpha_0 - X omega_0^2
+ *
+ * eliminates alpha. The inertia of the last link that remains for the first is
+ *
+ *     m d . d - C^2 / I = across d . d + X^2 / I,    across = m I_G / I, I = I_G + h^2 / m:
+ *
+ * in this form there is no cancellation for a bob on a light cart. A slide moves along e as the end of a d with
+ * k x d = e that does not turn, under a force instead of a moment. */
+
+static inline double moment_of_forces(const struct tree_link *link, struct vec turn)
+{
+    return link->sine * turn.y + link->cosine * turn.x;
+}
+
+static void two_links(const struct tree_link *links, const struct tree_bare *s, const double *y,
                       const double *v, double *a)
 {
-    enum tree_form form = tree_form_of(links, count);
-    if (form == tree_form_two_pivots) {
-        tree_two_pivots(links, s, y, v, a);
-    } else if (form == tree_form_pole) {
-        const struct tree_pole pole = tree_pole_of(links);
-        tree_pole(&pole, s[0].g, s[1].g, y, v, a);
-    } else if (form == tree_form_three_pivots) {
-        tree_three_pivots(links, s, y, v, a);
+    const struct tree_link *first = &links[0], *last = &links[1];
+    const int q0 = first->coordinate, q1 = last->coordinate;
+    const bool turns = first->kind == motion_pivot;
+    const double angle = turns ? first->along + y[q0] : first->along, sum = angle + last->along + y[q1];
+    struct vec turn0, turn1, d = {first->e.y, -first->e.x};
+    double load = s[0].g, J = first->mass + last->across, w0 = 0;
+    if (turns) {
+        units_by_sine(angle, sum, &turn0, &turn1);
+        d = vec_turn(turn0, last->at);
+        load = load - s[1].g + moment_of_forces(first, turn0);
+        J = first->I_O + last->across * vec_dot(last->at, last->at);
+        w0 = v[q0];
     } else {
-        chain(links, s, count, y, v, a);
+        turn1 = unit_by_sine(sum);
+        load += vec_dot(first->e, first->force);
     }
+    const struct vec h = vec_turn(turn1, last->moment);
+    const double C = vec_dot(d, h), X = vec_cross(d, h), D = last->inverse_I_O, w1 = w0 + v[q1];
+    const double u = D * (s[1].g + moment_of_forces(last, turn1) - w0 * w0 * X);
+    load = load + vec_cross(d, last->force) + w1 * w1 * X;
+    const double alpha = (load - C * u) / (J + D * X * X);
+    a[q0] = alpha;
+    a[q1] = u - D * C * alpha - (turns ? alpha : 0);
 }
 
-enum tree_form tree_bare_form(const struct fbd_model *model)
-{
-    const struct tree *tree = model->tree;
-    bool one = model->plan.affine_count == 0 && tree->links[1].end == tree->count;
-    return one ? tree_form_of(&tree->links[1], tree->count - 1) : tree_form_none;
-}
+/* ---- the scene */
 
-void tree_bare_rates(const struct fbd_model *model, struct tree_work *work, const double *y, double *dydt)
+int bare_row(double t, const double y[], double dydt[], void *params)
 {
-    const struct tree *tree = model->tree;
-    const int n = model->plan.n;
-    if (model->plan.affine_count > 0) set_joint_forces(model, y, work->bare);
+    const struct row *row = params;
+    const struct fbd_model *model = row->all->state->model;
+    const struct tree_link *links = model->tree->links;
+    struct tree_bare *bare = row->bare;
+    const int n = model->plan.n, joined = model->tree->joined;
+    (void)t;
+    if (model->plan.affine_count > 0) set_joint_forces(model, y, bare);
     for (int i = 0; i < n; i++) dydt[i] = y[n + i];
-    for (int i = 1; i < tree->joined; i = tree->links[i].end)
-        any_chain(&tree->links[i], &work->bare[i], tree->links[i].end - i, y, y + n, dydt + n);
+    for (int i = 1; i < joined; i = links[i].end) {
+        int count = links[i].end - i;
+        if (count == 2)
+            two_links(&links[i], &bare[i], y, y + n, dydt + n);
+        else
+            chain(&links[i], &bare[i], count, y, y + n, dydt + n);
+    }
+    return 0;
 }

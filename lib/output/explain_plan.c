@@ -115,12 +115,8 @@ static void write_rows(struct text *text, struct rates_census rows)
         int count;
         const char *words;
     } kinds[] = {
-        {rows.steady, "constant acceleration"},
+        {rows.scalar, "a scalar equation: one line"},
         {rows.held, "held by friction: nothing to compute"},
-        {rows.affine, "affine, with quadratic drag: one line"},
-        {rows.sine, "sine of the angle: one line"},
-        {rows.parts, "one power or harmonic of a formula: one line, no program"},
-        {rows.formulas, "with formulas"},
         {rows.own, "rates of the states of the file"},
         {rows.bare, "chains of pivots with constant forces, without their places in the world"},
         {rows.loops, "loops closed by pins, in independent coordinates"},

@@ -97,7 +97,7 @@ static void events_and_structure_are_those_of_the_plan(void **unused)
     expect(text, "forces change with time on 1 of 2 bodies");
     expect(text, "forces change with the place on 1 of 2 bodies");
     expect(text, "1  held by friction: nothing to compute");
-    expect(text, "1  sine of the angle: one line");
+    expect(text, "1  a scalar equation: one line");
     free(text);
 }
 
