@@ -21,7 +21,7 @@ static size_t scratch_size(const struct plan *plan)
     return 2 * (size_t)plan->slots + 3 * (size_t)plan->n + 2 * (size_t)plan->own;
 }
 
-struct fbd_state *state_allocate(const struct fbd_model *model)
+struct fbd_state *state_allocate(const struct fbd_model *model, struct arena *memory)
 {
     const struct plan *plan = &model->plan;
     size_t rates = plan_rates(plan), extended = extended_size(model);
@@ -30,9 +30,10 @@ struct fbd_state *state_allocate(const struct fbd_model *model)
     size_t ints = 2 * (size_t)plan->branches + 8 * plan->mode_count;
     size_t tree = sizeof(struct tree_work) + tree_work_size(model);
     size_t sliding = plan->slide_count > 0 ? sizeof(struct sliding) + sliding_size(model) : 0;
-    struct fbd_state *state =
-        block_alloc(sizeof *state + tree + sliding + doubles * sizeof(double) + ints * sizeof(int));
+    size_t bytes = sizeof(struct fbd_state) + tree + sliding + doubles * sizeof(double) + ints * sizeof(int);
+    struct fbd_state *state = memory ? arena_array(memory, 1, bytes) : block_alloc(bytes);
     if (!state) return NULL;
+    state->in_arena = memory != NULL;
     state->model = model;
     char *behind = (char *)(state + 1);
     state->tree = (void *)behind;
@@ -63,8 +64,9 @@ struct fbd_state *state_allocate(const struct fbd_model *model)
 
 void state_free(struct fbd_state *state)
 {
-    if (state) rest_memo_free(state->tree->memo);
-    free(state);
+    if (!state) return;
+    rest_memo_free(state->tree->memo);
+    if (!state->in_arena) free(state);
 }
 
 void state_copy(struct fbd_state *to, const struct fbd_state *from)

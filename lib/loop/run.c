@@ -81,8 +81,8 @@ static bool make_run(struct run *run, const struct state_start *begin)
     const struct plan *plan = &run->model->plan;
     struct arena *memory = run->memory;
     size_t size = plan_size(plan);
-    run->state = begin ? state_new_from(run->model, begin) : state_new(run->model);
-    run->during = state_new(run->model);
+    run->state = state_make(run->model, begin, memory);
+    run->during = state_make(run->model, NULL, memory);
     run->work.y = ARENA_ARRAY(memory, 5 * size + roundoff_size(run->model), double);
     if (!run->state || !run->during || !run->work.y || !run_make_scans(run)) return false;
     run->state->tree->accuracy = run->during->tree->accuracy = projected_accuracy(&run->options);
@@ -188,7 +188,7 @@ static void start(struct run *run)
 struct run *run_new(const struct fbd_model *model, const struct run_options *options,
                     const struct state_start *begin, struct arena *memory)
 {
-    struct run *run = calloc(1, sizeof *run);
+    struct run *run = ARENA_NEW(memory, struct run);
     if (!run) return NULL;
     run->model = model;
     run->options = *options;
@@ -214,7 +214,6 @@ void run_free(struct run *run)
     state_free(run->during);
     rates_free(run->rates);
     free(run->log.events);
-    free(run);
 }
 
 /* ---- one turn of the loop */

@@ -74,7 +74,7 @@ void ledger_free(struct ledger *ledger)
 
 bool ledger_integrates(const struct ledger *ledger, const struct group *group)
 {
-    for (size_t i = 0; i < group->model->load_count; i++)
+    for (size_t i = 0; i < group_load_count(ledger->model, group); i++)
         if (ledger->integrated[group_load(group, (int)i)]) return true;
     return false;
 }
@@ -89,7 +89,8 @@ bool ledger_counts(const struct ledger *ledger, const struct group *group)
 /* Index at which the sums of a group are kept: its first load. A group without loads has no sums that matter. */
 static size_t first_load(const struct ledger *ledger, const struct group *group)
 {
-    return group->model->load_count > 0 ? (size_t)group_load(group, 0) : ledger->model->load_count;
+    return group_load_count(ledger->model, group) > 0 ? (size_t)group_load(group, 0)
+                                                      : ledger->model->load_count;
 }
 
 bool ledger_step(struct ledger *ledger, struct ensemble *ensemble, size_t index)
@@ -156,8 +157,8 @@ bool ledger_within(struct ledger *ledger, struct ensemble *ensemble, double t, d
 {
     for (size_t g = 0; ledger->any && g < ensemble->count; g++) {
         const struct group *group = &ensemble->groups[g];
-        bool at_end = t == group->run->state->t;
-        for (size_t i = 0; i < group->model->load_count; i++) {
+        bool at_end = t == group_end(group);
+        for (size_t i = 0; i < group_load_count(ledger->model, group); i++) {
             int load = group_load(group, (int)i);
             work[load] = (at_end ? ledger->end : ledger->begin)[load];
         }
