@@ -119,6 +119,7 @@ bool ledger_step(struct ledger *ledger, struct ensemble *ensemble, size_t index)
 void ledger_restart(struct ledger *ledger, struct ensemble *ensemble, size_t index)
 {
     const struct group *group = &ensemble->groups[index];
+    ledger->turnover -= ledger->through[first_load(ledger, group)];
     for (size_t i = 0; i < group->model->load_count; i++) {
         int load = group_load(group, (int)i);
         ledger->begin[load] = ledger->end[load] = ledger->struck[load] = ledger->through[load] =
