@@ -66,8 +66,7 @@ bool ensemble_make_run(struct ensemble *ensemble, struct group *group)
     group->run = ensemble->options.start
                      ? run_from_start(ensemble, group)
                      : run_new(group->model, &ensemble->options, NULL, &group->memory);
-    group->probe = group->run ? state_make(group->model, NULL, &group->memory) : NULL;
-    if (!group->probe || group->run->end.outcome == FBD_OUT_OF_MEMORY) return false;
+    if (!group->run || group->run->end.outcome == FBD_OUT_OF_MEMORY) return false;
     group->quiet = group->run->watchers.timed.count + group->run->watchers.moving.count == 0;
     return true;
 }
@@ -206,6 +205,13 @@ void ensemble_release(struct ensemble *ensemble, size_t count)
 
 /* ---- states within steps */
 
+struct fbd_state *ensemble_probe(struct ensemble *ensemble, struct group *group)
+{
+    if (!group->probe) group->probe = state_make(group->model, NULL, &group->memory);
+    if (!group->probe) ensemble_fail(ensemble, FBD_OUT_OF_MEMORY, "out of memory");
+    return group->probe;
+}
+
 typedef bool look_at_run(struct run *run, double t, struct fbd_state *state);
 
 static bool look_at_end(struct run *run, struct fbd_state *state)
@@ -232,6 +238,7 @@ struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, s
     struct group *group = &ensemble->groups[index];
     struct run *run = group->run;
     bool at_end = time_dd_equal(t, run_end(run)), within = t.t >= run->step.from && t.t <= run->state->t;
+    if (!ensemble_probe(ensemble, group)) return NULL;
     if (!forces && within) {
         state_set_moment(group->probe, t);
         return run_coordinates(run, t, group->probe->y) ? group->probe : NULL;
@@ -241,9 +248,9 @@ struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, s
 }
 
 /* Copy coordinates and rates of an island to the whole. */
-static void scatter_coordinates(const struct fbd_model *whole, const struct group *group, double *y)
+static void scatter_coordinates(const struct fbd_model *whole, const struct group *group, const double *part,
+                                double *y)
 {
-    const double *part = group->probe->y;
     for (size_t b = 0; b < group->model->body_count; b++) {
         const struct model_body *from = &group->model->bodies[b];
         const struct model_body *to = &whole->bodies[group_body(group, (int)b)];
@@ -257,7 +264,7 @@ static void scatter_coordinates(const struct fbd_model *whole, const struct grou
 bool ensemble_group_coordinates(struct ensemble *ensemble, size_t group, struct time_dd t, double *y)
 {
     if (!ensemble_look_group(ensemble, group, t, false)) return false;
-    scatter_coordinates(ensemble->model, &ensemble->groups[group], y);
+    scatter_coordinates(ensemble->model, &ensemble->groups[group], ensemble->groups[group].probe->y, y);
     return true;
 }
 
@@ -278,8 +285,7 @@ void ensemble_free_run(struct ensemble *ensemble, struct group *group)
     const struct run *run = group->run;
     if (!ensemble_frees_runs(ensemble) || !run->plain || run->log.count > 0 || *run->end.reason) return;
     group->past = run_totals(group->run);
-    memcpy(group->probe->y, run->state->y, plan_size(&group->model->plan) * sizeof *run->state->y);
-    scatter_coordinates(ensemble->model, group, ensemble->state->y);
+    scatter_coordinates(ensemble->model, group, run->state->y, ensemble->state->y);
     free_run(group);
 }
 
@@ -337,7 +343,7 @@ static void scatter_ends(const struct group *group, const struct fbd_state *part
 /* Copy the state of an island to that of the whole. */
 static void scatter(const struct fbd_model *whole, const struct group *group, struct fbd_state *state)
 {
-    scatter_coordinates(whole, group, state->y);
+    scatter_coordinates(whole, group, group->probe->y, state->y);
     scatter_modes(group, group->probe, state);
     scatter_ends(group, group->probe, state);
 }
@@ -356,9 +362,10 @@ bool ensemble_coordinates(struct ensemble *ensemble, double t, double *y)
 {
     for (size_t p = 0; p < ensemble->count; p++) {
         struct group *group = &ensemble->groups[p];
-        double *part = ensemble->count == 1 ? y : group->probe->y;
-        if (!run_covers(group->run, t) || !coordinates_of(group->run, t, part)) return false;
-        if (ensemble->count > 1) scatter_coordinates(ensemble->model, group, y);
+        double *part = y;
+        if (ensemble->count > 1) part = ensemble_probe(ensemble, group) ? group->probe->y : NULL;
+        if (!part || !run_covers(group->run, t) || !coordinates_of(group->run, t, part)) return false;
+        if (ensemble->count > 1) scatter_coordinates(ensemble->model, group, part, y);
     }
     return true;
 }
@@ -393,7 +400,7 @@ static bool look(struct ensemble *ensemble, double t, look_at_run *look_at, stru
             copy_coordinates(ensemble, group, state->y);
             continue;
         }
-        if (!look_at(group->run, t, group->probe)) return false;
+        if (!ensemble_probe(ensemble, group) || !look_at(group->run, t, group->probe)) return false;
         scatter(ensemble->model, group, state);
     }
     state_set_moment(state, time_dd_at(t));

@@ -38,7 +38,7 @@ struct group {
     const struct fbd_model *model;     /* that of the whole scene, or `owned` */
     struct fbd_model *owned;
     struct run *run;         /* NULL: freed, see ensemble_free_run */
-    struct fbd_state *probe;
+    struct fbd_state *probe; /* NULL until it is needed */
     struct run_totals past;  /* of a run that is freed */
     bool quiet;              /* without event functions */
     size_t released;         /* events of run->log copied to the ensemble */
@@ -134,6 +134,9 @@ struct fbd_state *ensemble_state(struct ensemble *ensemble);
 /* The state of island `index` at t, within its last step or at the end of it, as by ensemble_look, in its own
  * coordinates: its probe, or NULL. Without `forces` only coordinates and rates are set. */
 struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, struct time_dd t, bool forces);
+
+/* The probe of an island, for states within its steps; made at its first use. NULL when memory is out. */
+struct fbd_state *ensemble_probe(struct ensemble *ensemble, struct group *group);
 
 /* Index in the whole scene of body or load `index` of an island; -1 for -1. */
 int group_body(const struct group *group, int index);

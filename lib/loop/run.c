@@ -188,14 +188,13 @@ static void start(struct run *run)
 struct run *run_new(const struct fbd_model *model, const struct run_options *options,
                     const struct state_start *begin, struct arena *memory)
 {
-    struct run *run = ARENA_NEW(memory, struct run);
+    struct run *run = arena_take(memory, 1, sizeof *run, false);
     if (!run) return NULL;
-    run->model = model;
-    run->options = *options;
-    run->recent.time = -HUGE_VAL;
-    run->recent.interval[0] = run->recent.interval[1] = HUGE_VAL;
-    run->memory = memory;
-    run->end.reason = "";
+    *run = (struct run){.memory = memory,
+                        .model = model,
+                        .options = *options,
+                        .recent = {.time = -HUGE_VAL, .interval = {HUGE_VAL, HUGE_VAL}},
+                        .end = {.reason = ""}};
     if (!make_run(run, begin)) {
         run_free(run);
         return NULL;

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/block_alloc.h"
 #include "dynamics/energy.h"
 #include "dynamics/load_rounding.h"
 #include "numeric/tolerances.h"
@@ -33,22 +34,21 @@ bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fb
 {
     size_t loads = model->load_count;
     *ledger = (struct ledger){.model = model, .works = works};
-    ledger->integrated = calloc(2 * loads + 1, sizeof *ledger->integrated);
-    ledger->work = calloc(7 * loads + 2, sizeof *ledger->work);
-    ledger->powers = calloc(power_points * loads + 1, sizeof *ledger->powers);
-    ledger->arrows = calloc(diagram_most_arrows(model), sizeof *ledger->arrows);
-    ledger->scratch = calloc(plan_size(&model->plan) + 1, sizeof *ledger->scratch);
-    if (!ledger->integrated || !ledger->work || !ledger->powers || !ledger->arrows || !ledger->scratch) {
-        ledger_free(ledger);
-        return false;
-    }
-    ledger->counted = ledger->integrated + loads;
+    const size_t most_arrows = diagram_most_arrows(model), size = plan_size(&model->plan);
+    ledger->arrows = block_alloc(most_arrows * sizeof *ledger->arrows +
+                                 ((7 + power_points) * loads + 2 + size) * sizeof *ledger->work + 2 * loads);
+    if (!ledger->arrows) return false;
+    ledger->work = (double *)(ledger->arrows + most_arrows);
     ledger->initial_potential = ledger->work + loads;
     ledger->begin = ledger->initial_potential + loads;
     ledger->end = ledger->begin + loads;
     ledger->struck = ledger->end + loads;
     ledger->lively = ledger->struck + loads;
     ledger->through = ledger->lively + loads + 1;
+    ledger->powers = ledger->through + loads + 1;
+    ledger->scratch = ledger->powers + power_points * loads;
+    ledger->integrated = (bool *)(ledger->scratch + size);
+    ledger->counted = ledger->integrated + loads;
     struct instant at = state_instant(start);
     ledger->initial_kinetic = kinetic(model, &at);
     count_works(ledger);
@@ -64,11 +64,7 @@ bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fb
 
 void ledger_free(struct ledger *ledger)
 {
-    free(ledger->integrated);
-    free(ledger->work);
-    free(ledger->powers);
     free(ledger->arrows);
-    free(ledger->scratch);
     *ledger = (struct ledger){0};
 }
 

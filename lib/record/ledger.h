@@ -35,8 +35,8 @@ struct ledger {
     double turnover;  /* integral of the absolute powers of all integrated loads */
     bool unresolved;  /* works are NAN: a force oscillates thousands of times within a step */
     double *powers;   /* points of a panel times loads */
-    struct arrow *arrows;
-    double *scratch; /* 2 n */
+    struct arrow *arrows; /* the block of all arrays */
+    double *scratch;      /* plan_size */
 };
 
 /* Start at a state. Without `works` nothing is integrated, and results that need integrals are NAN. False

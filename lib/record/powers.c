@@ -283,11 +283,12 @@ static bool keeps_forces(const struct ledger *ledger, const struct group *group)
 static bool add_constant(struct ledger *ledger, struct ensemble *ensemble, size_t index, struct time_dd from,
                          struct time_dd to, struct sums *sums)
 {
-    const struct group *group = &ensemble->groups[index];
+    struct group *group = &ensemble->groups[index];
+    struct fbd_state *probe = ensemble_probe(ensemble, group);
     const double length = time_dd_since(to, from);
     for (size_t i = 0; i < group->model->load_count; i++) ledger->powers[group_load(group, (int)i)] = 0;
-    if (!run_look_mean(group->run, from, to, group->probe)) return false;
-    add_powers(ledger, group, group->probe, true, ledger->powers);
+    if (!probe || !run_look_mean(group->run, from, to, probe)) return false;
+    add_powers(ledger, group, probe, true, ledger->powers);
     for (size_t i = 0; i < group->model->load_count; i++) {
         int load = group_load(group, (int)i);
         if (!ledger->integrated[load]) continue;
