@@ -39,6 +39,7 @@ struct fbd_state {
     int *slip_rests;         /* and: friction that was at rest when settling began */
     int *slip_driven;        /* and: the side on which drives make it slip, 0 if forces decide */
     double *scratch;         /* see struct scratch */
+    struct arrow *arrows;    /* scratch: the diagram of one body */
     double *extended;        /* scratch of world_refs.h */
     struct sliding *sliding; /* NULL if no switch can have a sliding mode */
     struct tree_work *tree;  /* of the bodies, by state_evaluate */

@@ -2,6 +2,7 @@
 #include "dynamics/state.h"
 
 #include "base/block_alloc.h"
+#include "dynamics/diagram.h"
 #include "dynamics/rest_memo.h"
 #include "dynamics/tree_system.h"
 #include "dynamics/world_refs.h"
@@ -30,7 +31,9 @@ struct fbd_state *state_allocate(const struct fbd_model *model, struct arena *me
     size_t ints = 2 * (size_t)plan->branches + 8 * plan->mode_count;
     size_t tree = sizeof(struct tree_work) + tree_work_size(model);
     size_t sliding = plan->slide_count > 0 ? sizeof(struct sliding) + sliding_size(model) : 0;
-    size_t bytes = sizeof(struct fbd_state) + tree + sliding + doubles * sizeof(double) + ints * sizeof(int);
+    size_t arrows = diagram_most_arrows(model) * sizeof(struct arrow);
+    size_t bytes =
+        sizeof(struct fbd_state) + tree + sliding + arrows + doubles * sizeof(double) + ints * sizeof(int);
     struct fbd_state *state = memory ? arena_array(memory, 1, bytes) : block_alloc(bytes);
     if (!state) return NULL;
     state->in_arena = memory != NULL;
@@ -42,7 +45,8 @@ struct fbd_state *state_allocate(const struct fbd_model *model, struct arena *me
         state->sliding = (void *)(behind + tree);
         sliding_init(state->sliding, model, behind + tree + sizeof *state->sliding);
     }
-    state->y = (void *)(behind + tree + sliding);
+    state->arrows = (void *)(behind + tree + sliding);
+    state->y = (void *)(behind + tree + sliding + arrows);
     state->a = state->y + extended;
     state->slots = state->a + rates;
     state->scratch = state->slots + plan->slots;

@@ -13,7 +13,8 @@
 enum { by_exact = 2, kinds_of_stepper };
 
 struct switcher {
-    struct stepper *steppers[kinds_of_stepper]; /* explicit; implicit, NULL until it is tried; exact or NULL */
+    struct stepper
+        *steppers[kinds_of_stepper]; /* explicit; implicit, NULL until it is tried; exact or NULL */
     const struct method *methods[kinds_of_stepper];
     struct stepper_options options;
     int now, made; /* the one that makes the next step; the one that has made the last */
@@ -161,8 +162,7 @@ enum stepper_status switcher_step(struct switcher *s, struct counted_system *sys
 {
     struct time_dd t0 = *t;
     enum stepper_status status = stepper_step(s->steppers[s->now], system, t, y, f, h, t_limit);
-    if (status == stepper_underflow && s->now == 1)
-        status = step_explicitly(s, system, t, y, f, h, t_limit);
+    if (status == stepper_underflow && s->now == 1) status = step_explicitly(s, system, t, y, f, h, t_limit);
     s->made = s->now;
     if (s->now == by_exact || status != stepper_ok || !s->methods[1] || !(time_dd_since(t_limit, *t) > 0))
         return status;

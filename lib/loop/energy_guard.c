@@ -116,7 +116,7 @@ struct energy_balance run_energy_balance(struct run *run)
     balance.explained = energy_explained(run->options.tolerance, steps, moving, moving + terms);
     if (!(fabs(balance.residual) > balance.explained)) return balance;
     run_evaluate(run);
-    struct rounded rounded = rounded_at(run->state, run->work.arrows);
+    struct rounded rounded = rounded_at(run->state);
     double past = run->state->t - guard->t,
            nothing = DBL_EPSILON * rounded.ways * past * past / fmax(steps, 1);
     balance.explained =

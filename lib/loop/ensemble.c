@@ -63,9 +63,8 @@ bool ensemble_make_run(struct ensemble *ensemble, struct group *group)
     if (group->selection)
         group->model = group->owned = model_group(ensemble->model, group->selection, &group->memory);
     if (!group->model) return false;
-    group->run = ensemble->options.start
-                     ? run_from_start(ensemble, group)
-                     : run_new(group->model, &ensemble->options, NULL, &group->memory);
+    group->run = ensemble->options.start ? run_from_start(ensemble, group)
+                                         : run_new(group->model, &ensemble->options, NULL, &group->memory);
     if (!group->run || group->run->end.outcome == FBD_OUT_OF_MEMORY) return false;
     group->quiet = group->run->watchers.timed.count + group->run->watchers.moving.count == 0;
     return true;
@@ -106,7 +105,6 @@ struct ensemble *ensemble_new(const struct fbd_model *model, const struct run_op
     ensemble->from = ensemble->t = options->start ? options->start->t : 0;
     ensemble->next_told = HUGE_VAL;
     ensemble->state = state_make(model, NULL, &ensemble->memory);
-    ensemble->arrows = ARENA_ARRAY(&ensemble->memory, diagram_most_arrows(model), struct arrow);
     if (ensemble->memory.failed || !make_groups(ensemble)) {
         ensemble_free(ensemble);
         return NULL;
@@ -432,7 +430,7 @@ struct fbd_state *ensemble_state(struct ensemble *ensemble)
 void ensemble_check_balance(struct ensemble *ensemble)
 {
     struct text lack = {0};
-    bool lacks = balance_lack(ensemble_state(ensemble), ensemble->arrows, &lack);
+    bool lacks = balance_lack(ensemble_state(ensemble), &lack);
     if (lack.failed)
         ensemble_fail(ensemble, FBD_OUT_OF_MEMORY, "out of memory");
     else if (lacks)

@@ -81,8 +81,7 @@ struct ensemble {
     size_t event_count, event_room;
     struct fbd_state *state; /* of the whole, see ensemble_state */
     bool current;
-    size_t *due;          /* scratch: islands at t */
-    struct arrow *arrows; /* scratch of diagrams */
+    size_t *due; /* scratch: islands at t */
 };
 
 /* A run of the model at its start, divided into islands if options->structure. NULL when memory is out. */

@@ -152,7 +152,8 @@ static size_t number_groups(int *parent, struct items *items)
         of_bodies[b] = root == (int)b ? count++ : of_bodies[root];
     }
     for (int kind = of_body + 1; kind < kinds; kind++)
-        for (size_t i = 0; i < items->count[kind]; i++) items->group[kind][i] = of_bodies[items->group[kind][i]];
+        for (size_t i = 0; i < items->count[kind]; i++)
+            items->group[kind][i] = of_bodies[items->group[kind][i]];
     return (size_t)count;
 }
 
@@ -179,8 +180,8 @@ static struct list list_of(struct selection *s, enum kind kind)
 }
 
 /* Sort 0 ... count - 1 by island, in order within each; `next` has division->count entries. */
-static void sort_by_group(const struct islands *division, const struct items *items, enum kind kind, int *sorted,
-                          int *next)
+static void sort_by_group(const struct islands *division, const struct items *items, enum kind kind,
+                          int *sorted, int *next)
 {
     const int *group_of = items->group[kind];
     const size_t count = items->count[kind];
@@ -237,7 +238,8 @@ bool islands_make(struct islands *division, const struct fbd_model *model)
     /* The lists remain; behind them the islands of their items, and scratch. */
     int *next = division->memory = block_alloc((3 * bodies + slots + 2 * all) * sizeof *next);
     if (!next) return false;
-    int *sorted = next, *local = next + all, *moved = local + bodies, *parent = moved + slots, *work = parent + bodies;
+    int *sorted = next, *local = next + all, *moved = local + bodies, *parent = moved + slots,
+        *work = parent + bodies;
     next = work + bodies;
     for (int kind = 0; kind < kinds; next += items.count[kind++]) items.group[kind] = next;
     join_all(model, parent, &items);

@@ -97,7 +97,6 @@ static bool make_run(struct run *run, const struct state_start *begin)
     run->work.kept = ARENA_ARRAY(memory, 2 * size, double);
     run->work.crossed = ARENA_ARRAY(memory, run->search.moving.count, bool);
     run->recent.anchor = ARENA_ARRAY(memory, 2 * size, double);
-    run->work.arrows = ARENA_ARRAY(memory, diagram_most_arrows(run->model), struct arrow);
     run->decided.branches = ARENA_ARRAY(memory, (size_t)plan->branches + 2 * plan->mode_count, bool);
     if (!contacts_work_init(&run->contacts, run->model, memory) || !zeno_switch_init(run)) return false;
     run->watchers.asleep = run->contacts.asleep;

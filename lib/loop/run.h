@@ -131,11 +131,10 @@ struct roundoff {
 struct run_work {
     double *y, *f; /* the end of the last step, before its events */
     double *sample;
-    double *aside;        /* 2 plan_size: a sample computed by another formula */
-    double *values;       /* event functions of a set, their rates, the roundings of timed ones */
-    double *kept;         /* 2 plan_size: y and f during the search for user events */
-    bool *crossed;        /* crossed moving event functions, likewise */
-    struct arrow *arrows; /* of one body */
+    double *aside;  /* 2 plan_size: a sample computed by another formula */
+    double *values; /* event functions of a set, their rates, the roundings of timed ones */
+    double *kept;   /* 2 plan_size: y and f during the search for user events */
+    bool *crossed;  /* crossed moving event functions, likewise */
 };
 
 struct event_log {

@@ -137,7 +137,7 @@ double ledger_explained(struct ledger *ledger, struct fbd_state *state, double t
     struct instant at = state_instant(state);
     double size = fmax(ledger->liveliest, ledger->initial_kinetic) + ledger->turnover;
     if (!ledger->works) return NAN;
-    struct rounded rounded = rounded_at(state, ledger->arrows);
+    struct rounded rounded = rounded_at(state);
     double terms = size + rounded.places;
     /* A body at rest at the origin has coordinates of size 0: add a rounding of the displacement by its
      * forces, for each step. */

@@ -211,7 +211,7 @@ static bool take_roundoff(struct ensemble *ensemble, const struct panel *panel, 
 }
 
 /* Set the round-off level of the works of a panel. */
-static bool set_floor(struct ledger *ledger, struct ensemble *ensemble, struct panel *panel)
+static bool set_floor(struct ensemble *ensemble, struct panel *panel)
 {
     const double rounding = power_rounding;
     double roundoff = 0;
@@ -221,7 +221,7 @@ static bool set_floor(struct ledger *ledger, struct ensemble *ensemble, struct p
     }
     struct fbd_state *state = ensemble_look_group(ensemble, panel->group, panel->from, true);
     if (!state) return false;
-    struct rounded rounded = rounded_at(state, ledger->arrows); /* bodies at rest included */
+    struct rounded rounded = rounded_at(state); /* bodies at rest included */
     panel->floor = rounding * rounded.places + round_off(1, rounded.ways) * panel->length * panel->length +
                    panel->length * roundoff;
     return true;
@@ -241,7 +241,7 @@ static bool add_panel(struct ledger *ledger, struct ensemble *ensemble, struct p
     double size = sums->lively + sums->turnover + look.turnover;
     double energy = panel.length * look.missed;
     bool more = energy > share * tolerance * size;
-    if (more && panel.halved == 0 && !set_floor(ledger, ensemble, &panel)) return false;
+    if (more && panel.halved == 0 && !set_floor(ensemble, &panel)) return false;
     more = more && energy > panel.floor &&
            (look.waves || panel.halved < at_once || look.missed < progress * panel.missed);
     if (more && panel.halved < most_halved) {
