@@ -17,7 +17,9 @@
 bool simulation_begin(fbd_simulation *simulation, const struct fbd_model *model,
                       const struct run_options *options)
 {
-    simulation->ensemble = ensemble_new(model, options);
+    struct run_options own = *options;
+    own.ends_only = !simulation->bars;
+    simulation->ensemble = ensemble_new(model, &own);
     return simulation->ensemble && (!simulation->bars || bars_init(simulation->bars, model, options));
 }
 
@@ -198,6 +200,7 @@ static bool carry(fbd_result *result, const fbd_recording *recording, struct csv
     struct bars *bars = simulation->bars;
     bool whole = !csv && !result->record && !bars;
     struct going going = {result, recording, 0, whole, first_slice};
+    ensemble->options.ends_only = whole;
     if (result->ledger.works || (recording && recording->progress))
         ensemble->observer = (struct observer){&going, observe, observe_again};
     if (bars && recording && recording->progress) {

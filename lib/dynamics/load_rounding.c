@@ -69,8 +69,9 @@ static double reach_of_couplings(const struct tree *tree)
     return reach;
 }
 
-struct rounded rounded_at(const struct fbd_state *state, struct arrow *arrows)
+struct rounded rounded_at(const struct fbd_state *state)
 {
+    struct arrow *arrows = state->arrows;
     const struct fbd_model *model = state->model; /* of an island, or the whole */
     struct instant at = state_instant(state);
     struct rounded sum = {0, 0};

@@ -30,7 +30,7 @@ struct rounded {
     double ways;   /* of unit time: force times the displacement of its body by it */
 };
 
-/* Of an evaluated state; `arrows` is scratch: diagram_most_arrows. */
-struct rounded rounded_at(const struct fbd_state *state, struct arrow *arrows);
+/* Of an evaluated state. */
+struct rounded rounded_at(const struct fbd_state *state);
 
 #endif

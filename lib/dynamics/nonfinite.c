@@ -3,9 +3,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 
-#include "base/block_alloc.h"
 #include "dynamics/diagram.h"
 #include "dynamics/energy.h"
 #include "dynamics/friction.h"
@@ -108,10 +106,10 @@ static bool note_arrow(const struct fbd_model *model, const struct model_body *b
 /* Applied forces, reactions, or both. */
 enum which_arrows { given_arrows, reaction_arrows, all_arrows };
 
-static bool note_arrows(const struct fbd_state *state, struct arrow *arrows, enum which_arrows which,
-                        struct nonfinite *found)
+static bool note_arrows(const struct fbd_state *state, enum which_arrows which, struct nonfinite *found)
 {
     const struct fbd_model *model = state->model;
+    struct arrow *arrows = state->arrows;
     struct instant at = state_instant(state);
     for (size_t b = 0; b < model->body_count; b++) {
         const struct model_body *body = &model->bodies[b];
@@ -166,17 +164,12 @@ static bool note_limits(const struct fbd_state *state, struct nonfinite *found)
     return false;
 }
 
-enum finite nonfinite_check(const struct fbd_state *state, struct nonfinite *found)
+bool nonfinite_find(const struct fbd_state *state, struct nonfinite *found)
 {
-    struct arrow *arrows = block_alloc(diagram_most_arrows(state->model) * sizeof *arrows);
-    if (!arrows) return finite_no_memory;
     struct nonfinite unused; /* all are finite usually, and no order is needed */
-    bool fine = !note_arrows(state, arrows, all_arrows, &unused);
-    bool odd = note_coordinates(state, found) || note_own(state, found) ||
-               (!fine && note_arrows(state, arrows, given_arrows, found)) ||
-               note_accelerations(state, found) ||
-               (!fine && note_arrows(state, arrows, reaction_arrows, found)) || note_limits(state, found) ||
-               note_energies(state, found);
-    free(arrows);
-    return odd ? finite_not : finite_all;
+    bool fine = !note_arrows(state, all_arrows, &unused);
+    return note_coordinates(state, found) || note_own(state, found) ||
+           (!fine && note_arrows(state, given_arrows, found)) || note_accelerations(state, found) ||
+           (!fine && note_arrows(state, reaction_arrows, found)) || note_limits(state, found) ||
+           note_energies(state, found);
 }

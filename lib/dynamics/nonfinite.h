@@ -8,8 +8,6 @@
 #include "base/diag.h"
 #include "dynamics/state.h"
 
-enum finite { finite_all, finite_not, finite_no_memory };
-
 /* The first number that is not finite. */
 struct nonfinite {
     char what[240]; /* "the force `pull` on `block`" */
@@ -17,9 +15,9 @@ struct nonfinite {
     struct pos at; /* position in the file of its load, body or state */
 };
 
-/* Check an evaluated state: coordinates and rates, applied loads (before accelerations and reactions, which
+/* Find the first such number of an evaluated state: coordinates and rates, applied loads (before accelerations and reactions, which
  * depend on them), and the energies of the bodies. */
-enum finite nonfinite_check(const struct fbd_state *state, struct nonfinite *found);
+bool nonfinite_find(const struct fbd_state *state, struct nonfinite *found);
 
 /* Why a number may not be finite, as the end of a sentence. */
 const char *nonfinite_reason(double value);

@@ -6,6 +6,7 @@
 #ifndef FBD_DYNAMICS_STATE_H
 #define FBD_DYNAMICS_STATE_H
 
+#include "base/arena.h"
 #include "dynamics/forward.h"
 #include "dynamics/sliding.h"
 #include "holds/holds.h"
@@ -24,6 +25,7 @@ struct holds_trouble {
 struct fbd_state {
     const struct fbd_model *model;
     bool settled;               /* the modes agree with t and y */
+    bool in_arena;              /* its memory is that of an arena */
     bool degrees;               /* messages show its angles in degrees (output/display_units.h) */
     struct holds_trouble holds; /* of the last settling */
     double t, rest;             /* the time as a double-double: see base/time_dd.h */
@@ -37,6 +39,7 @@ struct fbd_state {
     int *slip_rests;         /* and: friction that was at rest when settling began */
     int *slip_driven;        /* and: the side on which drives make it slip, 0 if forces decide */
     double *scratch;         /* see struct scratch */
+    struct arrow *arrows;    /* scratch: the diagram of one body */
     double *extended;        /* scratch of world_refs.h */
     struct sliding *sliding; /* NULL if no switch can have a sliding mode */
     struct tree_work *tree;  /* of the bodies, by state_evaluate */
@@ -75,11 +78,9 @@ static inline struct direction state_flow(const struct fbd_state *state, double 
     return (struct direction){1, dy};
 }
 
-/* A state of zeros, without modes, for the functions that make states. NULL when memory is out. */
-struct fbd_state *state_allocate(const struct fbd_model *model);
-
-/* A state at the scene's initial values, t = 0, modes not yet settled. NULL when memory is out. */
-struct fbd_state *state_new(const struct fbd_model *model);
+/* A state of zeros, without modes, for the functions that make states: in an arena, or NULL for a block of its own. NULL
+ * when memory is out. */
+struct fbd_state *state_allocate(const struct fbd_model *model, struct arena *memory);
 
 /* Initial values for the continuation of a motion: a time, the plan_size numbers of y, the branches of
  * switches with memory, and the references of couplings from their start, for example the length of a rope. */
@@ -91,8 +92,17 @@ struct state_start {
         *couplings; /* a state of this scene, or of one whose couplings include those of it */
 };
 
-/* A state with these initial values: sticking, taut and closed modes follow from it as at the start. */
-struct fbd_state *state_new_from(const struct fbd_model *model, const struct state_start *start);
+/* A state with these initial values, whose sticking, taut and closed modes follow from it as at the start; NULL: at those
+ * of the scene, t = 0, modes not yet settled. NULL when memory is out. */
+struct fbd_state *state_make(const struct fbd_model *model, const struct state_start *start,
+                             struct arena *memory);
+
+static inline struct fbd_state *state_new(const struct fbd_model *model)
+{
+    return state_make(model, NULL, NULL);
+}
+
+/* Free a state; in an arena, the memory that it has beside. */
 void state_free(struct fbd_state *state);
 
 /* Make `to` equal to `from`; both belong to the same model. */

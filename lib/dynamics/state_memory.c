@@ -2,6 +2,7 @@
 #include "dynamics/state.h"
 
 #include "base/block_alloc.h"
+#include "dynamics/diagram.h"
 #include "dynamics/rest_memo.h"
 #include "dynamics/tree_system.h"
 #include "dynamics/world_refs.h"
@@ -21,7 +22,7 @@ static size_t scratch_size(const struct plan *plan)
     return 2 * (size_t)plan->slots + 3 * (size_t)plan->n + 2 * (size_t)plan->own;
 }
 
-struct fbd_state *state_allocate(const struct fbd_model *model)
+struct fbd_state *state_allocate(const struct fbd_model *model, struct arena *memory)
 {
     const struct plan *plan = &model->plan;
     size_t rates = plan_rates(plan), extended = extended_size(model);
@@ -30,9 +31,12 @@ struct fbd_state *state_allocate(const struct fbd_model *model)
     size_t ints = 2 * (size_t)plan->branches + 8 * plan->mode_count;
     size_t tree = sizeof(struct tree_work) + tree_work_size(model);
     size_t sliding = plan->slide_count > 0 ? sizeof(struct sliding) + sliding_size(model) : 0;
-    struct fbd_state *state =
-        block_alloc(sizeof *state + tree + sliding + doubles * sizeof(double) + ints * sizeof(int));
+    size_t arrows = diagram_most_arrows(model) * sizeof(struct arrow);
+    size_t bytes =
+        sizeof(struct fbd_state) + tree + sliding + arrows + doubles * sizeof(double) + ints * sizeof(int);
+    struct fbd_state *state = memory ? arena_array(memory, 1, bytes) : block_alloc(bytes);
     if (!state) return NULL;
+    state->in_arena = memory != NULL;
     state->model = model;
     char *behind = (char *)(state + 1);
     state->tree = (void *)behind;
@@ -41,7 +45,8 @@ struct fbd_state *state_allocate(const struct fbd_model *model)
         state->sliding = (void *)(behind + tree);
         sliding_init(state->sliding, model, behind + tree + sizeof *state->sliding);
     }
-    state->y = (void *)(behind + tree + sliding);
+    state->arrows = (void *)(behind + tree + sliding);
+    state->y = (void *)(behind + tree + sliding + arrows);
     state->a = state->y + extended;
     state->slots = state->a + rates;
     state->scratch = state->slots + plan->slots;
@@ -63,8 +68,9 @@ struct fbd_state *state_allocate(const struct fbd_model *model)
 
 void state_free(struct fbd_state *state)
 {
-    if (state) rest_memo_free(state->tree->memo);
-    free(state);
+    if (!state) return;
+    rest_memo_free(state->tree->memo);
+    if (!state->in_arena) free(state);
 }
 
 void state_copy(struct fbd_state *to, const struct fbd_state *from)

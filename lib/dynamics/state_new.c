@@ -19,35 +19,41 @@ static void let_slots_slip(struct fbd_state *state)
         if (tree->couplings[i].kind == constraint_groove) state->slip[tree->couplings[i].pair] = slip_plus;
 }
 
-struct fbd_state *state_new(const struct fbd_model *model)
+static void set_initial(struct fbd_state *state)
 {
+    const struct fbd_model *model = state->model;
     size_t n = (size_t)model->plan.n;
-    struct fbd_state *state = state_allocate(model);
-    if (!state) return NULL;
     for (size_t i = 0; i < n; i++) {
         state->y[i] = model->scene->coordinates[i].initial;
         state->y[n + i] = model->scene->coordinates[i].initial_rate;
     }
     for (int i = 0; i < model->plan.own; i++) state->y[2 * n + (size_t)i] = model->scene->own[i].initial;
-    modes_drive(state);
-    let_slots_slip(state);
-    state_start_constraints(state);
-    if (model->assembles) state_project(state, true);
-    contacts_start(state);
-    return state;
 }
 
-struct fbd_state *state_new_from(const struct fbd_model *model, const struct state_start *start)
+static void set_start(struct fbd_state *state, const struct state_start *start)
 {
-    struct fbd_state *state = state_allocate(model);
-    if (!state) return NULL;
+    const struct plan *plan = &state->model->plan;
     state->t = start->t;
-    memcpy(state->y, start->y, plan_size(&model->plan) * sizeof *state->y);
-    if (start->branch)
-        memcpy(state->branch, start->branch, (size_t)model->plan.branches * sizeof *state->branch);
+    memcpy(state->y, start->y, plan_size(plan) * sizeof *state->y);
+    if (start->branch) memcpy(state->branch, start->branch, (size_t)plan->branches * sizeof *state->branch);
+}
+
+struct fbd_state *state_make(const struct fbd_model *model, const struct state_start *start,
+                             struct arena *memory)
+{
+    struct fbd_state *state = state_allocate(model, memory);
+    if (!state) return NULL;
+    if (start)
+        set_start(state, start);
+    else
+        set_initial(state);
     modes_drive(state);
+    if (!start) let_slots_slip(state);
     state_start_constraints(state);
-    couplings_keep(state, start->couplings);
+    if (start)
+        couplings_keep(state, start->couplings);
+    else if (model->assembles)
+        state_project(state, true);
     contacts_start(state);
     return state;
 }

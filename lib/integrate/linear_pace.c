@@ -72,25 +72,44 @@ static void forget(struct linear_pace *pace, const struct linear_modes *modes)
         if (pace->keys[i].of == modes) pace->keys[i].of = NULL;
 }
 
+/* The eigenvalues of a matrix of two rows, the most frequent one; false where squares of its elements overflow. */
+static bool eigenvalues_of_two(const double *A, double *values)
+{
+    double mean = (A[0] + A[3]) / 2, half = (A[0] - A[3]) / 2, square = half * half + A[1] * A[2];
+    double root = sqrt(fabs(square)), real = square > 0 ? root : 0;
+    double large = mean + copysign(real, mean), determinant = A[0] * A[3] - A[1] * A[2];
+    values[0] = large;
+    values[2] = real > 0 ? determinant / large : large;
+    values[1] = square < 0 ? root : 0;
+    values[3] = -values[1];
+    return isfinite(square) && isfinite(determinant);
+}
+
+/* If the eigenvalues are not found, every mode counts as the fastest. False when memory is out. */
+static bool find_eigenvalues(struct linear_pace *pace, struct linear_modes *modes)
+{
+    if (pace->dim == 2 && eigenvalues_of_two(modes->A, modes->eigenvalues)) return true;
+    gsl_eigen_nonsymm_workspace *eigen = gsl_eigen_nonsymm_alloc(pace->dim);
+    if (!eigen) return false;
+    memcpy(pace->copy, modes->A, pace->dim * pace->dim * sizeof *modes->A);
+    gsl_matrix_view matrix = gsl_matrix_view_array(pace->copy, pace->dim, pace->dim);
+    gsl_vector_complex_view eigenvalues = gsl_vector_complex_view_array(modes->eigenvalues, pace->dim);
+    if (gsl_eigen_nonsymm(&matrix.matrix, &eigenvalues.vector, eigen) != GSL_SUCCESS)
+        gsl_vector_complex_set_all(&eigenvalues.vector, gsl_complex_rect(0, modes->rho));
+    gsl_eigen_nonsymm_free(eigen);
+    return true;
+}
+
 /* Analyse pace->jacobian, in place of the oldest matrix. NULL when memory is out. */
 static struct linear_modes *make_modes(struct linear_pace *pace)
 {
-    gsl_eigen_nonsymm_workspace *eigen = gsl_eigen_nonsymm_alloc(pace->dim);
-    if (!eigen) return NULL;
     struct linear_modes *modes = &pace->kept[pace->oldest];
     size_t dim = pace->dim, size = dim * dim * sizeof *pace->jacobian;
     pace->oldest = (pace->oldest + 1) % linear_most_kept;
     forget(pace, modes);
     memcpy(modes->A, pace->jacobian, size);
-    memcpy(pace->copy, pace->jacobian, size);
     modes->rho = stiffness_rate(dim, modes->A, pace->work);
-    gsl_matrix_view matrix = gsl_matrix_view_array(pace->copy, dim, dim);
-    gsl_vector_complex_view eigenvalues = gsl_vector_complex_view_array(modes->eigenvalues, dim);
-    /* If the eigenvalues are not found, every mode counts as the fastest. */
-    if (gsl_eigen_nonsymm(&matrix.matrix, &eigenvalues.vector, eigen) != GSL_SUCCESS)
-        gsl_vector_complex_set_all(&eigenvalues.vector, gsl_complex_rect(0, modes->rho));
-    gsl_eigen_nonsymm_free(eigen);
-    return modes;
+    return find_eigenvalues(pace, modes) ? modes : NULL;
 }
 
 bool linear_pace_start(struct linear_pace *pace, struct counted_system *system, double t, const double *y,

@@ -33,7 +33,8 @@ enum stepper_status {
     stepper_underflow,    /* rejected until t + h == t; the reason is in stepper_counts.last */
     stepper_bad_function, /* the right-hand side returned GSL_EBADFUNC: stop */
     stepper_fixed_failed, /* a step of fixed size could not be made; the reason is in stepper_counts.last */
-    stepper_misuse        /* t_limit <= t, *h <= 0, another dimension, no Jacobian for an implicit method */
+    stepper_misuse,       /* t_limit <= t, *h <= 0, another dimension, no Jacobian for an implicit method */
+    stepper_no_memory     /* of a switcher, for its other method */
 };
 
 /* Why an attempt was rejected. */

@@ -13,8 +13,10 @@
 enum { by_exact = 2, kinds_of_stepper };
 
 struct switcher {
-    struct stepper *steppers[kinds_of_stepper]; /* explicit; implicit or NULL; exact or NULL */
+    struct stepper
+        *steppers[kinds_of_stepper]; /* explicit; implicit, NULL until it is tried; exact or NULL */
     const struct method *methods[kinds_of_stepper];
+    struct stepper_options options;
     int now, made; /* the one that makes the next step; the one that has made the last */
     int general;   /* that of the first two which is in use, or was before the exact one */
     struct stiffness stiffness;
@@ -22,15 +24,14 @@ struct switcher {
     double *rate_work; /* 2 n */
 };
 
-static bool prepare_pair(struct switcher *s, const struct stepper_options *options,
-                         const struct method *stiff)
+/* The implicit stepper is made for its first attempt: most motions never need one. False when memory is out. */
+static bool make_implicit(struct switcher *s)
 {
-    struct stepper_options other = *options;
-    other.method = stiff;
-    s->methods[1] = stiff;
-    s->steppers[1] = stepper_alloc(&other);
-    s->rate_work = malloc(2 * s->n * sizeof(double));
-    return s->steppers[1] && s->rate_work;
+    if (s->steppers[1]) return true;
+    s->options.method = s->methods[1];
+    if (!s->rate_work) s->rate_work = malloc(2 * s->n * sizeof(double));
+    s->steppers[1] = s->rate_work ? stepper_alloc(&s->options) : NULL;
+    return s->steppers[1] != NULL;
 }
 
 struct switcher *switcher_alloc(const struct stepper_options *options, const struct method *stiff)
@@ -38,15 +39,14 @@ struct switcher *switcher_alloc(const struct stepper_options *options, const str
     struct switcher *s = block_alloc(sizeof *s);
     if (!s) return NULL;
     s->n = layout_size(&options->layout);
+    s->options = *options;
     s->methods[0] = options->method;
+    s->methods[1] = options->h_fixed == 0 ? stiff : NULL;
     s->steppers[0] = stepper_alloc(options);
     stiffness_start(&s->stiffness, options->layout.pairs > 0 ? options->layout.pairs : s->n);
-    bool pair = stiff && options->h_fixed == 0;
-    if (!s->steppers[0] || (pair && !prepare_pair(s, options, stiff))) {
-        switcher_free(s);
-        return NULL;
-    }
-    return s;
+    if (s->steppers[0]) return s;
+    switcher_free(s);
+    return NULL;
 }
 
 void switcher_free(struct switcher *s)
@@ -117,6 +117,7 @@ static enum stepper_status consider(struct switcher *s, struct counted_system *s
                                     struct time_dd t_limit)
 {
     int other = !s->now, order = s->methods[other]->estimate_order;
+    if (!make_implicit(s)) return stepper_no_memory;
     double size = stiffness_stride(&s->stiffness) * time_dd_since(t, t0);
     follow(s);
     double ratio = attempt(s, system, t0, t_limit, size);
@@ -161,10 +162,9 @@ enum stepper_status switcher_step(struct switcher *s, struct counted_system *sys
 {
     struct time_dd t0 = *t;
     enum stepper_status status = stepper_step(s->steppers[s->now], system, t, y, f, h, t_limit);
-    if (status == stepper_underflow && s->steppers[1] && s->now == 1)
-        status = step_explicitly(s, system, t, y, f, h, t_limit);
+    if (status == stepper_underflow && s->now == 1) status = step_explicitly(s, system, t, y, f, h, t_limit);
     s->made = s->now;
-    if (s->now == by_exact || status != stepper_ok || !s->steppers[1] || !(time_dd_since(t_limit, *t) > 0))
+    if (s->now == by_exact || status != stepper_ok || !s->methods[1] || !(time_dd_since(t_limit, *t) > 0))
         return status;
     if (s->stiffness.wait > 1) { /* as stiffness_due, without the rate */
         s->stiffness.wait--;
@@ -215,7 +215,7 @@ bool switcher_lend(const struct switcher *s, struct stepper_state_view *view)
     if (s->now != 0 || s->made != 0 || s->steppers[by_exact] || !stepper_lend(s->steppers[0], view))
         return false;
     view->steps = INFINITY;
-    if (!s->steppers[1]) return true;
+    if (!s->methods[1]) return true;
     view->steps = s->stiffness.wait - 1;
     return view->steps > 0;
 }
@@ -224,7 +224,7 @@ void switcher_settle(struct switcher *s, const struct stepper_state_view *view)
 {
     if (view->accepted == 0) return;
     stepper_settle(s->steppers[0], view);
-    if (s->steppers[1]) s->stiffness.wait -= (int)view->accepted;
+    if (s->methods[1]) s->stiffness.wait -= (int)view->accepted;
 }
 
 unsigned long switcher_rejected(const struct switcher *s, enum rejection why)

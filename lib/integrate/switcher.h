@@ -13,7 +13,8 @@
 
 struct switcher;
 
-/* `options` for the method that starts; `stiff` takes over where the motion is stiff, NULL for never. */
+/* `options` for the method that starts, whose layout must remain valid; `stiff` takes over where the motion is stiff, NULL
+ * for never. */
 struct switcher *switcher_alloc(const struct stepper_options *options, const struct method *stiff);
 void switcher_free(struct switcher *switcher);
 

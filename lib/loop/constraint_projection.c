@@ -323,7 +323,7 @@ void run_check_balance(struct run *run)
 {
     struct text lack = {0};
     run_evaluate(run);
-    if (run->end.outcome == FBD_GOING && balance_lack(run->state, run->work.arrows, &lack))
+    if (run->end.outcome == FBD_GOING && balance_lack(run->state, &lack))
         run_fail(run, lack.failed ? FBD_OUT_OF_MEMORY : FBD_FAILED, "%s",
                  lack.failed ? "out of memory" : lack.data);
     text_free(&lack);

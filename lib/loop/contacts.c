@@ -39,7 +39,7 @@ static bool meetings_init(struct contacts_work *work, const struct fbd_model *mo
     work->asleep = ARENA_ARRAY(memory, meetings, bool);
     work->deep = ARENA_ARRAY(memory, meetings, double);
     work->touched = ARENA_ARRAY(memory, meetings, int);
-    work->trial = state_new(model);
+    work->trial = state_make(model, NULL, memory);
     if (memory->failed || !work->trial) return false;
     work->touching = work->was_closed + couplings;
     work->moves = work->touching + couplings;

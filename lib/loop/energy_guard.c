@@ -98,7 +98,7 @@ static double potential_at(struct run *run, double t, const double *y, double *t
     return sum;
 }
 
-static struct energy_balance look_at_run(struct run *run)
+struct energy_balance run_energy_balance(struct run *run)
 {
     const struct energy_guard *guard = &run->energy;
     const double steps = (double)switcher_counts(run->stepper).accepted;
@@ -116,7 +116,7 @@ static struct energy_balance look_at_run(struct run *run)
     balance.explained = energy_explained(run->options.tolerance, steps, moving, moving + terms);
     if (!(fabs(balance.residual) > balance.explained)) return balance;
     run_evaluate(run);
-    struct rounded rounded = rounded_at(run->state, run->work.arrows);
+    struct rounded rounded = rounded_at(run->state);
     double past = run->state->t - guard->t,
            nothing = DBL_EPSILON * rounded.ways * past * past / fmax(steps, 1);
     balance.explained =
@@ -129,7 +129,7 @@ struct energy_balance ensemble_energy_balance(struct ensemble *ensemble)
     struct energy_balance worst = {0, HUGE_VAL};
     double beyond = -1;
     for (size_t g = 0; g < ensemble->count; g++) {
-        struct energy_balance one = look_at_run(ensemble->groups[g].run);
+        struct energy_balance one = group_totals(&ensemble->groups[g]).energy;
         double ratio = fabs(one.residual) / one.explained; /* NAN without motion, or without a bound */
         if (!(ratio > beyond)) continue;
         beyond = ratio;

@@ -41,7 +41,8 @@ double energy_of_place(const struct run *run);
 /* Called after events; `before` is the work of impacts before them. */
 void energy_guard_events(struct run *run, double before);
 
-/* Of the island with the largest ratio of residual to its bound. */
+/* Of a run; and of the island with the largest ratio of residual to its bound. */
+struct energy_balance run_energy_balance(struct run *run);
 struct energy_balance ensemble_energy_balance(struct ensemble *ensemble);
 
 /* The largest residual that is consistent with so many steps at a tolerance: four tolerances of the kinetic

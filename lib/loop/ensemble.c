@@ -12,17 +12,22 @@
 
 /* ---- allocation */
 
+static int group_branch(const struct group *group, int index)
+{
+    return group->selection ? group->selection->branches[index] : index;
+}
+
 /* Copy the components and branches of an island from the start. */
 static void part_of_start(const struct ensemble *ensemble, const struct group *group, double *y, int *branch)
 {
     const struct fbd_state *whole = ensemble->options.start;
     const struct plan *plan = &group->model->plan;
     for (size_t i = 0; i < plan_size(plan); i++) y[i] = whole->y[group_component(ensemble->model, group, i)];
-    for (int i = 0; i < plan->branches; i++) branch[i] = whole->branch[group->branch ? group->branch[i] : i];
+    for (int i = 0; i < plan->branches; i++) branch[i] = whole->branch[group_branch(group, i)];
 }
 
 /* A run that begins at the start of the ensemble. */
-static struct run *run_from_start(struct ensemble *ensemble, const struct group *group)
+static struct run *run_from_start(struct ensemble *ensemble, struct group *group)
 {
     const struct plan *plan = &group->model->plan;
     double *y = calloc(plan_size(plan) + 1, sizeof *y);
@@ -32,86 +37,36 @@ static struct run *run_from_start(struct ensemble *ensemble, const struct group 
         const struct fbd_state *whole = ensemble->options.start;
         const struct state_start part = {whole->t, y, branch, whole};
         part_of_start(ensemble, group, y, branch);
-        run = run_new(group->model, &ensemble->options, &part, &ensemble->memory);
+        run = run_new(group->model, &ensemble->options, &part, &group->memory);
     }
     free(y);
     free(branch);
     return run;
 }
 
+static void free_run(struct group *group)
+{
+    run_free(group->run);
+    state_free(group->probe);
+    model_free(group->owned);
+    arena_free(&group->memory);
+    group->run = NULL;
+    group->probe = NULL;
+    group->model = group->owned = NULL;
+}
+
 bool ensemble_make_run(struct ensemble *ensemble, struct group *group)
 {
+    free_run(group);
+    group->memory.much_room = true;
+    group->model = ensemble->model;
+    if (group->selection)
+        group->model = group->owned = model_group(ensemble->model, group->selection, &group->memory);
+    if (!group->model) return false;
     group->run = ensemble->options.start ? run_from_start(ensemble, group)
-                                         : run_new(group->model, &ensemble->options, NULL, &ensemble->memory);
-    return group->run && group->run->end.outcome != FBD_OUT_OF_MEMORY;
-}
-
-static bool make_group(struct ensemble *ensemble, struct group *group)
-{
-    if (!ensemble_make_run(ensemble, group)) return false;
-    group->probe = state_new(group->model);
-    const struct run *run = group->run;
-    group->quiet = run->watchers.timed.count + run->watchers.moving.count == 0;
-    return group->probe != NULL;
-}
-
-/* Allocate the maps of all islands, and counters for filling them. */
-static bool allocate_maps(struct ensemble *ensemble)
-{
-    const struct fbd_model *whole = ensemble->model;
-    size_t entries = (size_t)whole->plan.branches + whole->plan.mode_count + whole->load_count;
-    int *next = ensemble->maps = calloc(entries + ensemble->count + 1, sizeof(int));
-    if (!next) return false;
-    for (size_t p = 0; p < ensemble->count; p++) {
-        struct group *group = &ensemble->groups[p];
-        group->branch = next;
-        group->pairs = next += group->model->plan.branches;
-        group->loads = next += group->model->plan.mode_count;
-        next += group->model->load_count;
-    }
-    ensemble->counts = next;
-    return true;
-}
-
-static void map_branches(struct ensemble *ensemble)
-{
-    const struct plan *plan = &ensemble->model->plan;
-    const struct islands *division = &ensemble->division;
-    size_t watch = 0;
-    for (size_t i = 0; i < plan->kink_count; i++) {
-        const struct kink *kink = &plan->kinks[i];
-        int p = kink->body >= 0 ? division->group_of_body[kink->body] : 0;
-        if (kink->body < 0 && kink->own < 0) { /* find the user event whose formula begins here */
-            int first = kink->formula.branch;
-            while (plan->watches[watch].left.branch != first && plan->watches[watch].right.branch != first)
-                watch++;
-            p = division->group_of_event[watch];
-        }
-        for (size_t k = 0; k < kink->count; k++)
-            ensemble->groups[p].branch[ensemble->counts[p]++] = kink->formula.branch + (int)k;
-    }
-}
-
-/* Map branches, friction pairs and loads of the islands to the whole. The whole lists each in the same order
- * as the islands do (loads of bodies, couplings, named couplings, drives; switches of loads first and those
- * of user events last), so those of an island come in its order. */
-static bool make_maps(struct ensemble *ensemble)
-{
-    const struct fbd_model *whole = ensemble->model;
-    const int *group_of_body = ensemble->division.group_of_body;
-    if (!allocate_maps(ensemble)) return false;
-    int *counts = ensemble->counts;
-    map_branches(ensemble);
-    memset(counts, 0, ensemble->count * sizeof *counts);
-    for (size_t i = 0; i < whole->plan.mode_count; i++) {
-        int p = group_of_body[whole->plan.modes[i].body];
-        ensemble->groups[p].pairs[counts[p]++] = (int)i;
-    }
-    memset(counts, 0, ensemble->count * sizeof *counts);
-    for (size_t i = 0; i < whole->load_count; i++) {
-        int p = group_of_body[whole->loads[i].body];
-        ensemble->groups[p].loads[counts[p]++] = (int)i;
-    }
+                                         : run_new(group->model, &ensemble->options, NULL, &group->memory);
+    if (!group->run || group->run->end.outcome == FBD_OUT_OF_MEMORY) return false;
+    group->quiet = group->run->watchers.timed.count + group->run->watchers.moving.count == 0;
     return true;
 }
 
@@ -122,22 +77,20 @@ static bool make_groups(struct ensemble *ensemble)
         if (!islands_make(&ensemble->division, ensemble->model)) return false;
         if (ensemble->division.count > 1) ensemble->count = ensemble->division.count;
     }
-    ensemble->groups = block_alloc(ensemble->count * sizeof *ensemble->groups);
-    ensemble->queue = block_alloc(2 * ensemble->count * sizeof *ensemble->queue);
-    if (!ensemble->groups || !ensemble->queue) return false;
+    ensemble->groups = ARENA_ARRAY(&ensemble->memory, ensemble->count, struct group);
+    ensemble->queue = ARENA_ARRAY(&ensemble->memory, 2 * ensemble->count, size_t);
+    if (ensemble->memory.failed) return false;
     ensemble->due = ensemble->queue + ensemble->count;
-    bool divided = ensemble->count > 1;
     for (size_t p = 0; p < ensemble->count; p++) {
         struct group *group = &ensemble->groups[p];
-        group->model = ensemble->model;
-        if (!divided) continue;
-        group->selection = &ensemble->division.selections[p];
-        group->model = group->owned = model_group(ensemble->model, group->selection, &ensemble->memory);
-        if (!group->model) return false;
+        if (ensemble->count > 1) group->selection = &ensemble->division.selections[p];
+        if (!ensemble_make_run(ensemble, group)) return false;
+        const struct run *run = group->run;
+        if (run->end.refusal && !ensemble->refused) ensemble->refused = run;
+        if (run->end.outcome != FBD_GOING) ensemble_fail(ensemble, run->end.outcome, run->end.reason);
+        ensemble->due[p] = p;
+        ensemble_free_run(ensemble, group);
     }
-    if (divided && !make_maps(ensemble)) return false;
-    for (size_t p = 0; p < ensemble->count; p++)
-        if (!make_group(ensemble, &ensemble->groups[p])) return false;
     return true;
 }
 
@@ -151,17 +104,10 @@ struct ensemble *ensemble_new(const struct fbd_model *model, const struct run_op
     ensemble->reason = "";
     ensemble->from = ensemble->t = options->start ? options->start->t : 0;
     ensemble->next_told = HUGE_VAL;
-    ensemble->state = state_new(model);
-    ensemble->arrows = block_alloc(diagram_most_arrows(model) * sizeof *ensemble->arrows);
-    if (!ensemble->state || !ensemble->arrows || !make_groups(ensemble)) {
+    ensemble->state = state_make(model, NULL, &ensemble->memory);
+    if (ensemble->memory.failed || !make_groups(ensemble)) {
         ensemble_free(ensemble);
         return NULL;
-    }
-    for (size_t p = 0; p < ensemble->count; p++) {
-        const struct run *run = ensemble->groups[p].run;
-        ensemble->due[p] = p;
-        if (run->end.refusal && !ensemble->refused) ensemble->refused = run;
-        if (run->end.outcome != FBD_GOING) ensemble_fail(ensemble, run->end.outcome, run->end.reason);
     }
     ensemble_release(ensemble, ensemble->count);
     return ensemble;
@@ -170,18 +116,10 @@ struct ensemble *ensemble_new(const struct fbd_model *model, const struct run_op
 void ensemble_free(struct ensemble *ensemble)
 {
     if (!ensemble) return;
-    for (size_t p = 0; ensemble->groups && p < ensemble->count; p++) {
-        run_free(ensemble->groups[p].run);
-        state_free(ensemble->groups[p].probe);
-        model_free(ensemble->groups[p].owned);
-    }
+    for (size_t p = 0; ensemble->groups && p < ensemble->count; p++) free_run(&ensemble->groups[p]);
     state_free(ensemble->state);
     islands_free(&ensemble->division);
     arena_free(&ensemble->memory);
-    free(ensemble->groups);
-    free(ensemble->maps);
-    free(ensemble->arrows);
-    free(ensemble->queue);
     free(ensemble->events);
     free(ensemble);
 }
@@ -215,7 +153,7 @@ int group_body(const struct group *group, int index)
 
 int group_load(const struct group *group, int index)
 {
-    return index < 0 || !group->loads ? index : group->loads[index];
+    return index < 0 || !group->selection ? index : group->selection->loads[index];
 }
 
 static bool add_event(struct ensemble *ensemble, const struct run_event *event)
@@ -245,7 +183,7 @@ void ensemble_release(struct ensemble *ensemble, size_t count)
     for (size_t i = 0; i < count; i++) {
         struct group *group = &ensemble->groups[ensemble->due[i]];
         const struct run *run = group->run;
-        for (; group->released < run->log.count && run->log.events[group->released].t <= ensemble->t;
+        for (; run && group->released < run->log.count && run->log.events[group->released].t <= ensemble->t;
              group->released++) {
             struct run_event event = run->log.events[group->released];
             event.body = group_body(group, event.body);
@@ -264,6 +202,13 @@ void ensemble_release(struct ensemble *ensemble, size_t count)
 }
 
 /* ---- states within steps */
+
+struct fbd_state *ensemble_probe(struct ensemble *ensemble, struct group *group)
+{
+    if (!group->probe) group->probe = state_make(group->model, NULL, &group->memory);
+    if (!group->probe) ensemble_fail(ensemble, FBD_OUT_OF_MEMORY, "out of memory");
+    return group->probe;
+}
 
 typedef bool look_at_run(struct run *run, double t, struct fbd_state *state);
 
@@ -291,6 +236,7 @@ struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, s
     struct group *group = &ensemble->groups[index];
     struct run *run = group->run;
     bool at_end = time_dd_equal(t, run_end(run)), within = t.t >= run->step.from && t.t <= run->state->t;
+    if (!ensemble_probe(ensemble, group)) return NULL;
     if (!forces && within) {
         state_set_moment(group->probe, t);
         return run_coordinates(run, t, group->probe->y) ? group->probe : NULL;
@@ -300,9 +246,9 @@ struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, s
 }
 
 /* Copy coordinates and rates of an island to the whole. */
-static void scatter_coordinates(const struct fbd_model *whole, const struct group *group, double *y)
+static void scatter_coordinates(const struct fbd_model *whole, const struct group *group, const double *part,
+                                double *y)
 {
-    const double *part = group->probe->y;
     for (size_t b = 0; b < group->model->body_count; b++) {
         const struct model_body *from = &group->model->bodies[b];
         const struct model_body *to = &whole->bodies[group_body(group, (int)b)];
@@ -316,8 +262,29 @@ static void scatter_coordinates(const struct fbd_model *whole, const struct grou
 bool ensemble_group_coordinates(struct ensemble *ensemble, size_t group, struct time_dd t, double *y)
 {
     if (!ensemble_look_group(ensemble, group, t, false)) return false;
-    scatter_coordinates(ensemble->model, &ensemble->groups[group], y);
+    scatter_coordinates(ensemble->model, &ensemble->groups[group], ensemble->groups[group].probe->y, y);
     return true;
+}
+
+/* Those of an island whose run is freed. */
+static void copy_coordinates(const struct ensemble *ensemble, const struct group *group, double *y)
+{
+    const double *from = ensemble->state->y;
+    for (size_t i = 0; i < group->selection->body_count; i++) {
+        const struct model_body *body = &ensemble->model->bodies[group->selection->bodies[i]];
+        const size_t size = (size_t)body->count * sizeof *y;
+        memmove(y + body->first, from + body->first, size);
+        memmove(y + body->first_rate, from + body->first_rate, size);
+    }
+}
+
+void ensemble_free_run(struct ensemble *ensemble, struct group *group)
+{
+    const struct run *run = group->run;
+    if (!ensemble_frees_runs(ensemble) || !run->plain || run->log.count > 0 || *run->end.reason) return;
+    group->past = run_totals(group->run);
+    scatter_coordinates(ensemble->model, group, run->state->y, ensemble->state->y);
+    free_run(group);
 }
 
 /* Copy the Filippov sliding modes of an island, with the kinks of the whole and separate surfaces. */
@@ -326,13 +293,12 @@ static void scatter_slides(const struct group *group, const struct fbd_state *pa
     if (!part->sliding || !state->sliding) return;
     const struct plan *whole = &state->model->plan;
     struct sliding *to = state->sliding;
-    bool all = !group->selection;
-    for (int i = 0; i < group->model->plan.branches; i++) to->slide_at[all ? i : group->branch[i]] = 0;
+    for (int i = 0; i < group->model->plan.branches; i++) to->slide_at[group_branch(group, i)] = 0;
     sliding_drop(to);
     int units = to->units;
     for (int j = 0; j < part->sliding->count; j++) {
         const struct slide *slide = &part->sliding->slides[j];
-        int branch = all ? slide->branch : group->branch[slide->branch], kink = 0;
+        int branch = group_branch(group, slide->branch), kink = 0;
         while (whole->kinks[kink].formula.branch + (int)whole->kinks[kink].count <= branch) kink++;
         sliding_add(to, &whole->kinks[kink], kink, branch - whole->kinks[kink].formula.branch,
                     units + slide->unit, slide->sign);
@@ -343,11 +309,10 @@ static void scatter_slides(const struct group *group, const struct fbd_state *pa
 static void scatter_modes(const struct group *group, const struct fbd_state *part, struct fbd_state *state)
 {
     const struct plan *plan = &group->model->plan;
-    bool whole = !group->selection;
-    for (int i = 0; i < plan->branches; i++) state->branch[whole ? i : group->branch[i]] = part->branch[i];
+    for (int i = 0; i < plan->branches; i++) state->branch[group_branch(group, i)] = part->branch[i];
     scatter_slides(group, part, state);
     for (size_t i = 0; i < plan->mode_count; i++) {
-        size_t pair = whole ? i : (size_t)group->pairs[i];
+        size_t pair = group->selection ? (size_t)group->selection->modes[i] : i;
         state->slip[pair] = part->slip[i];
         state->pull[pair] = part->pull[i];
         if (plan->modes[i].kind == mode_contact) /* its feature */
@@ -376,7 +341,7 @@ static void scatter_ends(const struct group *group, const struct fbd_state *part
 /* Copy the state of an island to that of the whole. */
 static void scatter(const struct fbd_model *whole, const struct group *group, struct fbd_state *state)
 {
-    scatter_coordinates(whole, group, state->y);
+    scatter_coordinates(whole, group, group->probe->y, state->y);
     scatter_modes(group, group->probe, state);
     scatter_ends(group, group->probe, state);
 }
@@ -395,9 +360,10 @@ bool ensemble_coordinates(struct ensemble *ensemble, double t, double *y)
 {
     for (size_t p = 0; p < ensemble->count; p++) {
         struct group *group = &ensemble->groups[p];
-        double *part = ensemble->count == 1 ? y : group->probe->y;
-        if (!run_covers(group->run, t) || !coordinates_of(group->run, t, part)) return false;
-        if (ensemble->count > 1) scatter_coordinates(ensemble->model, group, y);
+        double *part = y;
+        if (ensemble->count > 1) part = ensemble_probe(ensemble, group) ? group->probe->y : NULL;
+        if (!part || !run_covers(group->run, t) || !coordinates_of(group->run, t, part)) return false;
+        if (ensemble->count > 1) scatter_coordinates(ensemble->model, group, part, y);
     }
     return true;
 }
@@ -426,8 +392,14 @@ static bool look(struct ensemble *ensemble, double t, look_at_run *look_at, stru
 {
     if (ensemble->count == 1) return look_at(ensemble->groups[0].run, t, state);
     for (size_t p = 0; p < ensemble->count; p++) {
-        if (!look_at(ensemble->groups[p].run, t, ensemble->groups[p].probe)) return false;
-        scatter(ensemble->model, &ensemble->groups[p], state);
+        struct group *group = &ensemble->groups[p];
+        if (!group->run) {
+            if (group->past.t != t) return false;
+            copy_coordinates(ensemble, group, state->y);
+            continue;
+        }
+        if (!ensemble_probe(ensemble, group) || !look_at(group->run, t, group->probe)) return false;
+        scatter(ensemble->model, group, state);
     }
     state_set_moment(state, time_dd_at(t));
     state->settled = true;
@@ -447,7 +419,10 @@ bool ensemble_look_before(struct ensemble *ensemble, double t, struct fbd_state 
 
 struct fbd_state *ensemble_state(struct ensemble *ensemble)
 {
-    if (!ensemble->current) ensemble_look(ensemble, ensemble->t, ensemble->state);
+    if (!ensemble->current) {
+        ensemble_rewind(ensemble, ensemble->t);
+        ensemble_look(ensemble, ensemble->t, ensemble->state);
+    }
     ensemble->current = true;
     return ensemble->state;
 }
@@ -455,7 +430,7 @@ struct fbd_state *ensemble_state(struct ensemble *ensemble)
 void ensemble_check_balance(struct ensemble *ensemble)
 {
     struct text lack = {0};
-    bool lacks = balance_lack(ensemble_state(ensemble), ensemble->arrows, &lack);
+    bool lacks = balance_lack(ensemble_state(ensemble), &lack);
     if (lack.failed)
         ensemble_fail(ensemble, FBD_OUT_OF_MEMORY, "out of memory");
     else if (lacks)

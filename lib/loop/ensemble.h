@@ -21,6 +21,10 @@
  *
  * When the run ends early at t, by an event or a failure in one island, the state of the others at t is
  * needed, too. An island without events that ensemble_go has advanced beyond t is integrated again up to t.
+ *
+ * A run takes some 20 kB for one body. Where states before the end are not asked for (options.ends_only), ensemble_go
+ * advances each island of a scene with many, if it has neither events nor couplings and few steps, from the start to the
+ * end at once, and frees its run; its coordinates at the end are those of ensemble->state.
  */
 #ifndef FBD_LOOP_ENSEMBLE_H
 #define FBD_LOOP_ENSEMBLE_H
@@ -29,15 +33,15 @@
 #include "loop/run.h"
 
 struct group {
-    const struct fbd_model *model; /* that of the whole scene, or `owned` */
+    const struct selection *selection; /* NULL: the whole scene */
+    struct arena memory;               /* of the run, the probe and the owned model */
+    const struct fbd_model *model;     /* that of the whole scene, or `owned` */
     struct fbd_model *owned;
-    const struct selection *selection;
-    struct run *run;
-    struct fbd_state *probe;
-    bool quiet;          /* without event functions */
-    size_t released;     /* events of run->log copied to the ensemble */
-    int *branch, *pairs; /* indices of branches and friction pairs in the whole plan; NULL: the same */
-    int *loads;          /* indices of loads in the whole model; NULL: the same */
+    struct run *run;         /* NULL: freed, see ensemble_free_run */
+    struct fbd_state *probe; /* NULL until it is needed */
+    struct run_totals past;  /* of a run that is freed */
+    bool quiet;              /* without event functions */
+    size_t released;         /* events of run->log copied to the ensemble */
 };
 
 struct ensemble;
@@ -54,11 +58,9 @@ struct ensemble {
     const struct fbd_model *model;
     struct run_options options;
     struct islands division;
-    struct arena memory; /* of the islands: arrays of their runs, their models and the scenes of these */
+    struct arena memory; /* of the arrays and the state of the whole */
     size_t count;
     struct group *groups;
-    int *maps;     /* memory of the islands' maps */
-    int *counts;   /* scratch of make_maps, in `maps` */
     size_t *queue; /* heap of islands by the ends of their last steps */
     size_t queued;
     bool lazy;        /* advanced by ensemble_go: quiet islands are not queued */
@@ -79,8 +81,7 @@ struct ensemble {
     size_t event_count, event_room;
     struct fbd_state *state; /* of the whole, see ensemble_state */
     bool current;
-    size_t *due;          /* scratch: islands at t */
-    struct arrow *arrows; /* scratch of diagrams */
+    size_t *due; /* scratch: islands at t */
 };
 
 /* A run of the model at its start, divided into islands if options->structure. NULL when memory is out. */
@@ -133,17 +134,50 @@ struct fbd_state *ensemble_state(struct ensemble *ensemble);
  * coordinates: its probe, or NULL. Without `forces` only coordinates and rates are set. */
 struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, struct time_dd t, bool forces);
 
+/* The probe of an island, for states within its steps; made at its first use. NULL when memory is out. */
+struct fbd_state *ensemble_probe(struct ensemble *ensemble, struct group *group);
+
 /* Index in the whole scene of body or load `index` of an island; -1 for -1. */
 int group_body(const struct group *group, int index);
 int group_load(const struct group *group, int index);
+
+/* Number of its loads. */
+static inline size_t group_load_count(const struct fbd_model *whole, const struct group *group)
+{
+    return group->selection ? group->selection->load_count : whole->load_count;
+}
+
+/* The time that an island has reached, and what its run has cost. */
+static inline double group_end(const struct group *group)
+{
+    return group->run ? group->run->state->t : group->past.t;
+}
+
+static inline struct run_totals group_totals(const struct group *group)
+{
+    return group->run ? run_totals(group->run) : group->past;
+}
 
 /* ---- internal to the ensemble */
 
 /* Copy the events up to ensemble->t of the islands due[0 .. count - 1] to the ensemble. */
 void ensemble_release(struct ensemble *ensemble, size_t count);
 
-/* Make the run of an island. */
+/* Make the run of an island, once more if it has one. False when memory is out. */
 bool ensemble_make_run(struct ensemble *ensemble, struct group *group);
+
+/* Are runs freed at their ends? The memory of few islands does not matter. */
+static inline bool ensemble_frees_runs(const struct ensemble *ensemble)
+{
+    enum { few = 256 };
+    return ensemble->options.ends_only && ensemble->count > few;
+}
+
+/* Free the run of an island if it may be: at the start or the end of a run whose other states are not asked for. */
+void ensemble_free_run(struct ensemble *ensemble, struct group *group);
+
+/* Integrate the islands that are beyond t again, up to t. */
+void ensemble_rewind(struct ensemble *ensemble, double t);
 
 void ensemble_fail(struct ensemble *ensemble, fbd_outcome outcome, const char *reason);
 

@@ -161,7 +161,9 @@ void run_fail_step(struct run *run, enum stepper_status status)
      * near the same point. */
     bool not_finite = run->system.last_code == system_not_finite ||
                       counts.rejected[rejected_not_finite] > run->step.not_finite;
-    if (status == stepper_misuse) {
+    if (status == stepper_no_memory) {
+        run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
+    } else if (status == stepper_misuse) {
         run_fail(run, FBD_FAILED, "the method `%s` cannot be used here", run->options.method->name);
     } else if (not_finite) {
         explain_not_finite(run);

@@ -5,6 +5,15 @@
 
 #include "base/block_alloc.h"
 
+/* The kinds of items in a selection. */
+enum kind { of_body, of_event, of_coupling, of_constraint, of_absolute, of_branch, of_mode, of_load, kinds };
+
+/* For the items of each kind their number and, while the bodies are joined, a body of each, then its island. */
+struct items {
+    size_t count[kinds];
+    int *group[kinds];
+};
+
 /* ---- connected components by union-find: parent[b] is a body of the same island, finally the first one */
 
 static int find(int *parent, int b)
@@ -76,10 +85,28 @@ static int join_end(const struct scene *scene, int *parent, const struct constra
     return body;
 }
 
-/* group_of_event, group_of_coupling, group_of_constraint and group_of_absolute contain a body of each on
- * return. */
-static void join_all(const struct scene *scene, int *parent, struct islands *division)
+/* The branches of a switch in a load belong to its body, those of one in a user event to a body that the event reads. */
+static void find_branches(const struct plan *plan, struct items *items)
 {
+    size_t watch = 0;
+    for (size_t i = 0; i < plan->kink_count; i++) {
+        const struct kink *kink = &plan->kinks[i];
+        const int first = kink->formula.branch;
+        int body = kink->body >= 0 ? kink->body : 0;
+        if (kink->body < 0 && kink->own < 0) { /* find the user event whose formula begins here */
+            while (plan->watches[watch].left.branch != first && plan->watches[watch].right.branch != first)
+                watch++;
+            body = items->group[of_event][watch];
+        }
+        for (size_t k = 0; k < kink->count; k++) items->group[of_branch][first + (int)k] = body;
+    }
+}
+
+/* Sets items->group to a body of each item except of the bodies. */
+static void join_all(const struct fbd_model *model, int *parent, struct items *items)
+{
+    const struct scene *scene = model->scene;
+    int *const *group = items->group;
     for (size_t b = 0; b < scene->body_count; b++) parent[b] = (int)b;
     for (size_t b = 0; b < scene->body_count; b++) {
         const struct body *body = &scene->bodies[b];
@@ -97,40 +124,37 @@ static void join_all(const struct scene *scene, int *parent, struct islands *div
         read = join_read(scene, parent, scene->events[i].right, read);
         const int of = scene->events[i].begins + scene->events[i].ends; /* one of them is 0 */
         if (of > 0) read = join_end(scene, parent, &scene->constraints[of - 1], read);
-        division->group_of_event[i] = read < 0 ? 0 : read;
+        group[of_event][i] = read < 0 ? 0 : read;
     }
     for (size_t i = 0; i < scene->force_coupling_count; i++) {
         const int *body = scene->force_couplings[i].body;
-        division->group_of_coupling[i] = body[0] != ground_body ? body[0] : body[1];
+        group[of_coupling][i] = body[0] != ground_body ? body[0] : body[1];
         if (body[0] != ground_body && body[1] != ground_body) join(parent, body[0], body[1]);
-        join_load(scene, parent, &scene->force_couplings[i].load, division->group_of_coupling[i]);
+        join_load(scene, parent, &scene->force_couplings[i].load, group[of_coupling][i]);
     }
     for (size_t i = 0; i < scene->constraint_count; i++)
-        division->group_of_constraint[i] = join_constraint(scene, parent, &scene->constraints[i]);
-    for (size_t i = 0; i < scene->absolute_count; i++)
-        division->group_of_absolute[i] = scene->absolutes[i].body;
+        group[of_constraint][i] = join_constraint(scene, parent, &scene->constraints[i]);
+    for (size_t i = 0; i < scene->absolute_count; i++) group[of_absolute][i] = scene->absolutes[i].body;
+    for (size_t i = 0; i < model->plan.mode_count; i++) group[of_mode][i] = model->plan.modes[i].body;
+    for (size_t i = 0; i < model->load_count; i++) group[of_load][i] = model->loads[i].body;
+    find_branches(&model->plan, items);
 }
 
 /* ---- lists of the islands */
 
 /* Replace the root of each body by the number of its island; returns the number of islands. A root comes
  * before the other bodies of its island. */
-static size_t number_groups(const struct scene *scene, int *parent, struct islands *division)
+static size_t number_groups(int *parent, struct items *items)
 {
-    size_t count = 0;
-    for (size_t b = 0; b < scene->body_count; b++) {
+    int *of_bodies = items->group[of_body], count = 0;
+    for (size_t b = 0; b < items->count[of_body]; b++) {
         int root = find(parent, (int)b);
-        division->group_of_body[b] = root == (int)b ? (int)count++ : division->group_of_body[root];
+        of_bodies[b] = root == (int)b ? count++ : of_bodies[root];
     }
-    for (size_t i = 0; i < scene->event_count; i++)
-        division->group_of_event[i] = division->group_of_body[division->group_of_event[i]];
-    for (size_t i = 0; i < scene->force_coupling_count; i++)
-        division->group_of_coupling[i] = division->group_of_body[division->group_of_coupling[i]];
-    for (size_t i = 0; i < scene->constraint_count; i++)
-        division->group_of_constraint[i] = division->group_of_body[division->group_of_constraint[i]];
-    for (size_t i = 0; i < scene->absolute_count; i++)
-        division->group_of_absolute[i] = division->group_of_body[division->group_of_absolute[i]];
-    return count;
+    for (int kind = of_body + 1; kind < kinds; kind++)
+        for (size_t i = 0; i < items->count[kind]; i++)
+            items->group[kind][i] = of_bodies[items->group[kind][i]];
+    return (size_t)count;
 }
 
 /* A list of a selection. */
@@ -139,42 +163,33 @@ struct list {
     size_t *count;
 };
 
-typedef struct list list_of(struct selection *selection);
-
-static struct list bodies_of(struct selection *selection)
+static struct list list_of(struct selection *s, enum kind kind)
 {
-    return (struct list){&selection->bodies, &selection->body_count};
-}
-
-static struct list events_of(struct selection *selection)
-{
-    return (struct list){&selection->events, &selection->event_count};
-}
-
-static struct list couplings_of(struct selection *selection)
-{
-    return (struct list){&selection->force_couplings, &selection->force_coupling_count};
-}
-
-static struct list constraints_of(struct selection *selection)
-{
-    return (struct list){&selection->constraints, &selection->constraint_count};
-}
-
-static struct list absolutes_of(struct selection *selection)
-{
-    return (struct list){&selection->absolutes, &selection->absolute_count};
+    switch (kind) {
+    case of_body: return (struct list){&s->bodies, &s->body_count};
+    case of_event: return (struct list){&s->events, &s->event_count};
+    case of_coupling: return (struct list){&s->force_couplings, &s->force_coupling_count};
+    case of_constraint: return (struct list){&s->constraints, &s->constraint_count};
+    case of_absolute: return (struct list){&s->absolutes, &s->absolute_count};
+    case of_branch: return (struct list){&s->branches, &s->branch_count};
+    case of_mode: return (struct list){&s->modes, &s->mode_count};
+    case of_load:
+    case kinds: break;
+    }
+    return (struct list){&s->loads, &s->load_count};
 }
 
 /* Sort 0 ... count - 1 by island, in order within each; `next` has division->count entries. */
-static void sort_by_group(const struct islands *division, const int *group_of, size_t count, int *sorted,
-                          int *next, list_of *of)
+static void sort_by_group(const struct islands *division, const struct items *items, enum kind kind,
+                          int *sorted, int *next)
 {
+    const int *group_of = items->group[kind];
+    const size_t count = items->count[kind];
     for (size_t p = 0; p < division->count; p++) next[p] = 0;
     for (size_t i = 0; i < count; i++) next[group_of[i]]++;
     int first = 0;
     for (size_t p = 0; p < division->count; p++) {
-        struct list list = of(&division->selections[p]);
+        struct list list = list_of(&division->selections[p], kind);
         *list.items = sorted + first;
         *list.count = (size_t)next[p];
         first += next[p];
@@ -204,47 +219,35 @@ static void renumber(const struct scene *scene, struct selection *selection, int
             1 + 2 * all + (int)scene->own_count + hand_slots + (int)i;
 }
 
-/* One block for all lists; `sorted` and the following ones are behind those of the division. */
-static bool allocate(struct islands *division, const struct scene *scene, int **sorted)
+static struct items items_of(const struct fbd_model *model)
 {
-    size_t bodies = scene->body_count, events = scene->event_count, couplings = scene->force_coupling_count,
-           constraints = scene->constraint_count, absolutes = scene->absolute_count;
-    size_t slots = 1 + scene_size(scene) + hand_slots + absolutes;
-    size_t things = bodies + events + couplings + constraints + absolutes;
-    division->memory = block_alloc((3 * bodies + slots + 2 * things) * sizeof *division->memory);
-    if (!division->memory) return false;
-    division->group_of_body = division->memory;
-    division->group_of_event = division->group_of_body + bodies;
-    division->group_of_coupling = division->group_of_event + events;
-    division->group_of_constraint = division->group_of_coupling + couplings;
-    division->group_of_absolute = division->group_of_constraint + constraints;
-    *sorted = division->memory + things;
-    return true;
+    const struct scene *scene = model->scene;
+    return (struct items){.count = {scene->body_count, scene->event_count, scene->force_coupling_count,
+                                    scene->constraint_count, scene->absolute_count,
+                                    (size_t)model->plan.branches, model->plan.mode_count, model->load_count}};
 }
 
 bool islands_make(struct islands *division, const struct fbd_model *model)
 {
     const struct scene *scene = model->scene;
-    size_t bodies = scene->body_count, events = scene->event_count, couplings = scene->force_coupling_count;
-    int *sorted;
+    const size_t bodies = scene->body_count;
+    size_t slots = 1 + scene_size(scene) + hand_slots + scene->absolute_count, all = 0;
+    struct items items = items_of(model);
     *division = (struct islands){0};
-    if (!allocate(division, scene, &sorted)) return false;
-    int *sorted_events = sorted + bodies, *sorted_couplings = sorted_events + events,
-        *sorted_constraints = sorted_couplings + couplings,
-        *sorted_absolutes = sorted_constraints + scene->constraint_count,
-        *parent = sorted_absolutes + scene->absolute_count, *local = parent + bodies, *next = local + bodies,
-        *moved = next + bodies;
-    join_all(scene, parent, division);
-    division->count = number_groups(scene, parent, division);
+    for (int kind = 0; kind < kinds; kind++) all += items.count[kind];
+    /* The lists remain; behind them the islands of their items, and scratch. */
+    int *next = division->memory = block_alloc((3 * bodies + slots + 2 * all) * sizeof *next);
+    if (!next) return false;
+    int *sorted = next, *local = next + all, *moved = local + bodies, *parent = moved + slots,
+        *work = parent + bodies;
+    next = work + bodies;
+    for (int kind = 0; kind < kinds; next += items.count[kind++]) items.group[kind] = next;
+    join_all(model, parent, &items);
+    division->count = number_groups(parent, &items);
     division->selections = block_alloc((division->count + 1) * sizeof *division->selections);
     if (!division->selections) return false;
-    sort_by_group(division, division->group_of_body, bodies, sorted, next, bodies_of);
-    sort_by_group(division, division->group_of_event, events, sorted_events, next, events_of);
-    sort_by_group(division, division->group_of_coupling, couplings, sorted_couplings, next, couplings_of);
-    sort_by_group(division, division->group_of_constraint, scene->constraint_count, sorted_constraints, next,
-                  constraints_of);
-    sort_by_group(division, division->group_of_absolute, scene->absolute_count, sorted_absolutes, next,
-                  absolutes_of);
+    for (int kind = 0; kind < kinds; sorted += items.count[kind++])
+        sort_by_group(division, &items, (enum kind)kind, sorted, work);
     for (size_t p = 0; p < division->count; p++) renumber(scene, &division->selections[p], moved, local);
     return true;
 }

@@ -15,7 +15,6 @@
 struct islands {
     size_t count;                 /* islands, in the order of their first bodies */
     struct selection *selections; /* count */
-    int *group_of_body, *group_of_event, *group_of_coupling, *group_of_constraint, *group_of_absolute;
     int *memory;
 };
 

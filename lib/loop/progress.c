@@ -72,3 +72,19 @@ void run_check_progress(struct run *run)
     if (progress_is_none(&gain)) run_fail_progress(run, gain.time);
     *progress = (struct progress){progress->start, run->state->t, work, counts.accepted, rejected};
 }
+
+struct run_totals run_totals(struct run *run)
+{
+    const struct stepper_counts counts = switcher_counts(run->stepper);
+    const long samples = run->search.timed.samples + run->search.moving.samples;
+    struct run_totals totals = {.t = run->state->t,
+                                .kind = run->kind,
+                                .steps = counts.accepted,
+                                .stiff_steps = switcher_stiff_steps(run->stepper),
+                                .rhs = run->system.rhs,
+                                .jacobians = run->system.jacobians,
+                                .event_samples = (unsigned long)samples,
+                                .energy = run_energy_balance(run)};
+    for (int kind = 0; kind < rejection_kinds; kind++) totals.rejected += counts.rejected[kind];
+    return totals;
+}

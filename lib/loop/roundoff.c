@@ -137,14 +137,14 @@ static void add_gross_forces(struct run *run, int b, const struct instant *at, d
     const struct model_body *body = &run->model->bodies[b];
     int link = body->place.link;
     size_t count =
-        (body->alone ? diagram_fill : diagram_list)(run->model, b, at, run->state->slots, run->work.arrows);
+        (body->alone ? diagram_fill : diagram_list)(run->model, b, at, run->state->slots, run->state->arrows);
     const struct tree *tree = run->model->tree;
     double angle = body->alone ? 0 : run->roundoff.turned[tree->count + link];
     for (size_t i = 0; i < count; i++) {
         if (!body->alone)
-            add_jointed(body, &at->tree->links[link], angle, &run->work.arrows[i], gross);
+            add_jointed(body, &at->tree->links[link], angle, &run->state->arrows[i], gross);
         else
-            for (int k = 0; k < body->count; k++) gross[k] += fabs(run->work.arrows[i].share[k]);
+            for (int k = 0; k < body->count; k++) gross[k] += fabs(run->state->arrows[i].share[k]);
     }
     for (int k = 0; k < body->count; k++)
         gross[k] += share_of_difference * run->roundoff.cancelled[2 * b + coordinate_is_angle(body, k)];

@@ -81,8 +81,8 @@ static bool make_run(struct run *run, const struct state_start *begin)
     const struct plan *plan = &run->model->plan;
     struct arena *memory = run->memory;
     size_t size = plan_size(plan);
-    run->state = begin ? state_new_from(run->model, begin) : state_new(run->model);
-    run->during = state_new(run->model);
+    run->state = state_make(run->model, begin, memory);
+    run->during = state_make(run->model, NULL, memory);
     run->work.y = ARENA_ARRAY(memory, 5 * size + roundoff_size(run->model), double);
     if (!run->state || !run->during || !run->work.y || !run_make_scans(run)) return false;
     run->state->tree->accuracy = run->during->tree->accuracy = projected_accuracy(&run->options);
@@ -97,7 +97,6 @@ static bool make_run(struct run *run, const struct state_start *begin)
     run->work.kept = ARENA_ARRAY(memory, 2 * size, double);
     run->work.crossed = ARENA_ARRAY(memory, run->search.moving.count, bool);
     run->recent.anchor = ARENA_ARRAY(memory, 2 * size, double);
-    run->work.arrows = ARENA_ARRAY(memory, diagram_most_arrows(run->model), struct arrow);
     run->decided.branches = ARENA_ARRAY(memory, (size_t)plan->branches + 2 * plan->mode_count, bool);
     if (!contacts_work_init(&run->contacts, run->model, memory) || !zeno_switch_init(run)) return false;
     run->watchers.asleep = run->contacts.asleep;
@@ -188,14 +187,13 @@ static void start(struct run *run)
 struct run *run_new(const struct fbd_model *model, const struct run_options *options,
                     const struct state_start *begin, struct arena *memory)
 {
-    struct run *run = calloc(1, sizeof *run);
+    struct run *run = arena_take(memory, 1, sizeof *run, false);
     if (!run) return NULL;
-    run->model = model;
-    run->options = *options;
-    run->recent.time = -HUGE_VAL;
-    run->recent.interval[0] = run->recent.interval[1] = HUGE_VAL;
-    run->memory = memory;
-    run->end.reason = "";
+    *run = (struct run){.memory = memory,
+                        .model = model,
+                        .options = *options,
+                        .recent = {.time = -HUGE_VAL, .interval = {HUGE_VAL, HUGE_VAL}},
+                        .end = {.reason = ""}};
     if (!make_run(run, begin)) {
         run_free(run);
         return NULL;
@@ -214,7 +212,6 @@ void run_free(struct run *run)
     state_free(run->during);
     rates_free(run->rates);
     free(run->log.events);
-    free(run);
 }
 
 /* ---- one turn of the loop */

@@ -41,6 +41,7 @@ struct run_options {
     bool automatic;                /* switch between the explicit and the stiff method as needed */
     bool structure;                /* exploit the structure of the plan (structure.h) */
     bool apart;                    /* of a companion: where events set steps, they differ */
+    bool ends_only;                /* states between start and end are not asked for */
     const struct fbd_state *start; /* initial state of the whole model; NULL: that of the file */
 };
 
@@ -130,11 +131,10 @@ struct roundoff {
 struct run_work {
     double *y, *f; /* the end of the last step, before its events */
     double *sample;
-    double *aside;        /* 2 plan_size: a sample computed by another formula */
-    double *values;       /* event functions of a set, their rates, the roundings of timed ones */
-    double *kept;         /* 2 plan_size: y and f during the search for user events */
-    bool *crossed;        /* crossed moving event functions, likewise */
-    struct arrow *arrows; /* of one body */
+    double *aside;  /* 2 plan_size: a sample computed by another formula */
+    double *values; /* event functions of a set, their rates, the roundings of timed ones */
+    double *kept;   /* 2 plan_size: y and f during the search for user events */
+    bool *crossed;  /* crossed moving event functions, likewise */
 };
 
 struct event_log {
@@ -197,11 +197,21 @@ struct run {
     struct run_work work;
 };
 
-/* A run at the start of the model, with modes settled and events of t = 0 applied. Its arrays are in `memory`, which must
- * outlive it. NULL when memory is out. */
+/* A run at the start of the model, with modes settled and events of t = 0 applied. It is in `memory`, with its arrays and
+ * states; run_free frees what it has beside. NULL when memory is out. */
 struct run *run_new(const struct fbd_model *model, const struct run_options *options,
                     const struct state_start *begin, struct arena *memory);
 void run_free(struct run *run);
+
+/* The cost of a run, and its balance of energy. */
+struct run_totals {
+    double t; /* the time reached */
+    enum structure kind;
+    unsigned long steps, stiff_steps, rhs, jacobians, event_samples, rejected;
+    struct energy_balance energy;
+};
+
+struct run_totals run_totals(struct run *run);
 
 /* Does the method in use make steps of any length without truncation error? Do they extend to the next event? */
 static inline bool run_is_exact(const struct run *run)

@@ -8,11 +8,23 @@
 #include "base/format.h"
 #include "loop/ensemble.h"
 
+/* Even after another end, up to which islands are integrated again. */
+static void end_without_memory(struct ensemble *ensemble)
+{
+    ensemble->outcome = FBD_OUT_OF_MEMORY;
+    ensemble->reason = "out of memory";
+}
+
+static void make_run(struct ensemble *ensemble, struct group *group)
+{
+    if (!ensemble_make_run(ensemble, group)) end_without_memory(ensemble);
+}
+
 /* ---- the queue: a binary heap with the island that is furthest behind on top */
 
 static double end_of(const struct ensemble *ensemble, size_t group)
 {
-    return ensemble->groups[group].run->state->t;
+    return group_end(&ensemble->groups[group]);
 }
 
 /* At equal times the first island comes first. */
@@ -43,8 +55,12 @@ static void start(struct ensemble *ensemble, bool lazy)
     ensemble->started = true;
     ensemble->lazy = lazy;
     ensemble->calm = -HUGE_VAL;
-    for (size_t p = 0; p < ensemble->count; p++)
-        if (!(lazy && ensemble->groups[p].quiet)) ensemble->queue[ensemble->queued++] = p;
+    for (size_t p = 0; p < ensemble->count; p++) {
+        struct group *group = &ensemble->groups[p];
+        if (lazy && group->quiet) continue;
+        ensemble->queue[ensemble->queued++] = p;
+        if (!group->run) make_run(ensemble, group);
+    }
 }
 
 /* ---- steps */
@@ -74,7 +90,7 @@ static void step(struct ensemble *ensemble, size_t p)
         !observer->step(observer->context, ensemble, p))
         fail_within(ensemble, run);
     ensemble->stepping = false;
-    if (run->end.outcome == FBD_OUT_OF_MEMORY) ensemble_fail(ensemble, run->end.outcome, run->end.reason);
+    if (run->end.outcome == FBD_OUT_OF_MEMORY) end_without_memory(ensemble);
 }
 
 static bool ended_early(const struct run *run)
@@ -97,7 +113,7 @@ static void arrive(struct ensemble *ensemble, double t, size_t count)
     ensemble_release(ensemble, count);
     for (size_t i = 0; i < count; i++) {
         const struct run *run = ensemble->groups[ensemble->due[i]].run;
-        if (ended_early(run) && run->state->t <= t)
+        if (run && ended_early(run) && run->state->t <= t)
             ensemble_fail(ensemble, run->end.outcome, run->end.reason);
     }
     if (ensemble->outcome == FBD_GOING && t >= ensemble->options.until) ensemble->outcome = FBD_DONE;
@@ -144,8 +160,8 @@ static void arrive_all(struct ensemble *ensemble, double t)
 
 fbd_outcome ensemble_advance(struct ensemble *ensemble)
 {
+    if (ensemble->outcome == FBD_GOING) start(ensemble, false);
     if (ensemble->outcome != FBD_GOING) return ensemble->outcome;
-    start(ensemble, false);
     ensemble->from = ensemble->t;
     while (end_of(ensemble, ensemble->queue[0]) <= ensemble->from) {
         if (ensemble->groups[ensemble->queue[0]].run->end.outcome != FBD_GOING) break;
@@ -190,38 +206,58 @@ static double go_queued(struct ensemble *ensemble, double target, double near, b
     return stop <= target + near ? stop : target;
 }
 
+/* Advance a quiet island to `target`; where runs are freed at their ends, to the end if that takes few steps. */
+static void go_alone(struct ensemble *ensemble, size_t p, double target)
+{
+    enum { few = 1000 };
+    struct group *group = &ensemble->groups[p];
+    double goal = ensemble_frees_runs(ensemble) ? ensemble->options.until : target;
+    if (!group->run && end_of(ensemble, p) < target && !ensemble->cut) make_run(ensemble, group);
+    if (ensemble->outcome != FBD_GOING) return;
+    for (int steps = 0; group->run && group->run->end.outcome == FBD_GOING && !ensemble->cut; steps++) {
+        if (end_of(ensemble, p) >= (steps < few ? goal : target)) break;
+        step(ensemble, p);
+    }
+}
+
 /* Advance the quiet islands; returns the time that can be reached, less than `target` when one fails or is
  * interrupted: a stiff one may need many steps. Islands beyond that time are integrated again. */
 static double go_quiet(struct ensemble *ensemble, double target)
 {
     for (size_t p = 0; p < ensemble->count && ensemble->outcome == FBD_GOING; p++) {
-        const struct group *group = &ensemble->groups[p];
-        if (!group->quiet) continue;
+        struct group *group = &ensemble->groups[p];
         bool alone = ensemble->count == 1; /* several are advanced to one time, if possible */
-        while (group->run->end.outcome == FBD_GOING && end_of(ensemble, p) < target && !ensemble->cut)
-            step(ensemble, p);
-        if (ended_early(group->run) || alone || ensemble->cut) target = fmin(target, end_of(ensemble, p));
+        if (!group->quiet) continue;
+        go_alone(ensemble, p, target);
+        if (alone || ensemble->cut || (group->run && ended_early(group->run)))
+            target = fmin(target, end_of(ensemble, p));
+        if (group->run && group->run->end.outcome == FBD_DONE) ensemble_free_run(ensemble, group);
     }
     return target;
 }
 
-/* Integrate an island that is beyond t again, up to t. */
 static void rewind_group(struct ensemble *ensemble, size_t p, double t)
 {
     struct group *group = &ensemble->groups[p];
-    run_free(group->run);
-    if (!ensemble_make_run(ensemble, group)) {
-        ensemble_fail(ensemble, FBD_OUT_OF_MEMORY, "out of memory");
-        return;
-    }
+    make_run(ensemble, group);
+    if (ensemble->outcome == FBD_OUT_OF_MEMORY) return;
     if (ensemble->observer.restart) ensemble->observer.restart(ensemble->observer.context, ensemble, p);
     while (group->run->end.outcome == FBD_GOING && end_of(ensemble, p) < t) step(ensemble, p);
+}
+
+void ensemble_rewind(struct ensemble *ensemble, double t)
+{
+    for (size_t p = 0; p < ensemble->count && ensemble->outcome != FBD_OUT_OF_MEMORY; p++) {
+        const struct group *group = &ensemble->groups[p];
+        if ((group->run ? group->run->step.from : group->past.t) > t) rewind_group(ensemble, p, t);
+    }
 }
 
 static void end_cut(struct ensemble *ensemble)
 {
     format_into(ensemble->own_reason, sizeof ensemble->own_reason, "interrupted at t = %.9g", ensemble->t);
     ensemble_fail(ensemble, FBD_INTERRUPTED, ensemble->own_reason);
+    ensemble_rewind(ensemble, ensemble->t);
 }
 
 void ensemble_interrupt(struct ensemble *ensemble)
@@ -242,6 +278,7 @@ double ensemble_next_end(const struct ensemble *ensemble)
 static double calm_until(const struct group *group)
 {
     const struct run *run = group->run;
+    if (!run) return group->past.t;
     if (ended_early(run)) return -HUGE_VAL;
     return group->released < run->log.count ? fmin(run->state->t, run->log.events[group->released].t)
                                             : run->state->t;
@@ -268,13 +305,11 @@ static void go(struct ensemble *ensemble, double target, double near, bool pause
 {
     double queued = go_queued(ensemble, target, near, pause);
     double t = ensemble->queued < ensemble->count ? go_quiet(ensemble, queued) : queued;
+    if (ensemble->outcome == FBD_GOING && !ensemble_frees_runs(ensemble)) ensemble_rewind(ensemble, t);
     if (ensemble->outcome != FBD_GOING) return; /* memory is out */
-    for (size_t p = 0; p < ensemble->count; p++) {
-        if (ensemble->groups[p].run->step.from > t) rewind_group(ensemble, p, t);
-        if (ensemble->outcome != FBD_GOING) return;
-    }
     ensemble->from = t;
     arrive_all(ensemble, t);
+    if (ensemble->outcome != FBD_GOING) ensemble_rewind(ensemble, t);
     find_calm(ensemble);
 }
 

@@ -10,11 +10,13 @@
 
 #include "model/model.h"
 
-/* The items of a scene that form a group, as indices in their order; and for the whole scene the numbers in
- * the group: slot s of expressions becomes moved[s], body b becomes local[b]. */
+/* The items of a scene, and of its model, that form a group, as indices in their order; and for the whole scene the numbers
+ * in the group: slot s of expressions becomes moved[s], body b becomes local[b]. */
 struct selection {
     const int *bodies, *events, *force_couplings, *constraints, *absolutes;
     size_t body_count, event_count, force_coupling_count, constraint_count, absolute_count;
+    const int *branches, *modes, *loads; /* of the model, which lists those of a group in the same order */
+    size_t branch_count, mode_count, load_count;
     const int *moved, *local;
 };
 

@@ -63,7 +63,7 @@ fbd_drift fbd_simulation_drift(const fbd_simulation *simulation)
     const struct ensemble *ensemble = simulation->ensemble;
     fbd_drift drift = {.worst = "", .rows = (size_t)row_count(ensemble->model)};
     for (size_t i = 0; i < ensemble->count; i++)
-        add_drift(&drift, &ensemble->groups[i].run->drift, &ensemble->options);
+        if (ensemble->groups[i].run) add_drift(&drift, &ensemble->groups[i].run->drift, &ensemble->options);
     return drift;
 }
 

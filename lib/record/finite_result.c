@@ -39,9 +39,7 @@ bool result_finite(struct ensemble *ensemble, struct ledger *ledger, const doubl
 {
     struct fbd_state *state = ensemble_state(ensemble);
     struct nonfinite found;
-    enum finite finite = nonfinite_check(state, &found);
-    if (finite == finite_no_memory) return false;
-    bool odd = finite == finite_not;
+    bool odd = nonfinite_find(state, &found);
     if (!odd && ledger)
         odd = note_work(ledger, state, work, &found) || note_energies(ledger, state, work, &found);
     if (odd) {

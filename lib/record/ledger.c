@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/block_alloc.h"
 #include "dynamics/energy.h"
 #include "dynamics/load_rounding.h"
 #include "numeric/tolerances.h"
@@ -33,22 +34,21 @@ bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fb
 {
     size_t loads = model->load_count;
     *ledger = (struct ledger){.model = model, .works = works};
-    ledger->integrated = calloc(2 * loads + 1, sizeof *ledger->integrated);
-    ledger->work = calloc(7 * loads + 2, sizeof *ledger->work);
-    ledger->powers = calloc(power_points * loads + 1, sizeof *ledger->powers);
-    ledger->arrows = calloc(diagram_most_arrows(model), sizeof *ledger->arrows);
-    ledger->scratch = calloc(plan_size(&model->plan) + 1, sizeof *ledger->scratch);
-    if (!ledger->integrated || !ledger->work || !ledger->powers || !ledger->arrows || !ledger->scratch) {
-        ledger_free(ledger);
-        return false;
-    }
-    ledger->counted = ledger->integrated + loads;
+    const size_t most_arrows = diagram_most_arrows(model), size = plan_size(&model->plan);
+    ledger->arrows = block_alloc(most_arrows * sizeof *ledger->arrows +
+                                 ((7 + power_points) * loads + 2 + size) * sizeof *ledger->work + 2 * loads);
+    if (!ledger->arrows) return false;
+    ledger->work = (double *)(ledger->arrows + most_arrows);
     ledger->initial_potential = ledger->work + loads;
     ledger->begin = ledger->initial_potential + loads;
     ledger->end = ledger->begin + loads;
     ledger->struck = ledger->end + loads;
     ledger->lively = ledger->struck + loads;
     ledger->through = ledger->lively + loads + 1;
+    ledger->powers = ledger->through + loads + 1;
+    ledger->scratch = ledger->powers + power_points * loads;
+    ledger->integrated = (bool *)(ledger->scratch + size);
+    ledger->counted = ledger->integrated + loads;
     struct instant at = state_instant(start);
     ledger->initial_kinetic = kinetic(model, &at);
     count_works(ledger);
@@ -64,17 +64,13 @@ bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fb
 
 void ledger_free(struct ledger *ledger)
 {
-    free(ledger->integrated);
-    free(ledger->work);
-    free(ledger->powers);
     free(ledger->arrows);
-    free(ledger->scratch);
     *ledger = (struct ledger){0};
 }
 
 bool ledger_integrates(const struct ledger *ledger, const struct group *group)
 {
-    for (size_t i = 0; i < group->model->load_count; i++)
+    for (size_t i = 0; i < group_load_count(ledger->model, group); i++)
         if (ledger->integrated[group_load(group, (int)i)]) return true;
     return false;
 }
@@ -89,7 +85,8 @@ bool ledger_counts(const struct ledger *ledger, const struct group *group)
 /* Index at which the sums of a group are kept: its first load. A group without loads has no sums that matter. */
 static size_t first_load(const struct ledger *ledger, const struct group *group)
 {
-    return group->model->load_count > 0 ? (size_t)group_load(group, 0) : ledger->model->load_count;
+    return group_load_count(ledger->model, group) > 0 ? (size_t)group_load(group, 0)
+                                                      : ledger->model->load_count;
 }
 
 bool ledger_step(struct ledger *ledger, struct ensemble *ensemble, size_t index)
@@ -118,6 +115,7 @@ bool ledger_step(struct ledger *ledger, struct ensemble *ensemble, size_t index)
 void ledger_restart(struct ledger *ledger, struct ensemble *ensemble, size_t index)
 {
     const struct group *group = &ensemble->groups[index];
+    ledger->turnover -= ledger->through[first_load(ledger, group)];
     for (size_t i = 0; i < group->model->load_count; i++) {
         int load = group_load(group, (int)i);
         ledger->begin[load] = ledger->end[load] = ledger->struck[load] = ledger->through[load] =
@@ -139,7 +137,7 @@ double ledger_explained(struct ledger *ledger, struct fbd_state *state, double t
     struct instant at = state_instant(state);
     double size = fmax(ledger->liveliest, ledger->initial_kinetic) + ledger->turnover;
     if (!ledger->works) return NAN;
-    struct rounded rounded = rounded_at(state, ledger->arrows);
+    struct rounded rounded = rounded_at(state);
     double terms = size + rounded.places;
     /* A body at rest at the origin has coordinates of size 0: add a rounding of the displacement by its
      * forces, for each step. */
@@ -156,8 +154,8 @@ bool ledger_within(struct ledger *ledger, struct ensemble *ensemble, double t, d
 {
     for (size_t g = 0; ledger->any && g < ensemble->count; g++) {
         const struct group *group = &ensemble->groups[g];
-        bool at_end = t == group->run->state->t;
-        for (size_t i = 0; i < group->model->load_count; i++) {
+        bool at_end = t == group_end(group);
+        for (size_t i = 0; i < group_load_count(ledger->model, group); i++) {
             int load = group_load(group, (int)i);
             work[load] = (at_end ? ledger->end : ledger->begin)[load];
         }

@@ -31,12 +31,12 @@ struct ledger {
     double *lively, *through;
     double *initial_potential; /* per load */
     double initial_kinetic, initial_sum;
-    double liveliest; /* largest kinetic energy of a group at the end of a step */
-    double turnover;  /* integral of the absolute powers of all integrated loads */
-    bool unresolved;  /* works are NAN: a force oscillates thousands of times within a step */
-    double *powers;   /* points of a panel times loads */
-    struct arrow *arrows;
-    double *scratch; /* 2 n */
+    double liveliest;     /* largest kinetic energy of a group at the end of a step */
+    double turnover;      /* integral of the absolute powers of all integrated loads */
+    bool unresolved;      /* works are NAN: a force oscillates thousands of times within a step */
+    double *powers;       /* points of a panel times loads */
+    struct arrow *arrows; /* the block of all arrays */
+    double *scratch;      /* plan_size */
 };
 
 /* Start at a state. Without `works` nothing is integrated, and results that need integrals are NAN. False

@@ -211,7 +211,7 @@ static bool take_roundoff(struct ensemble *ensemble, const struct panel *panel, 
 }
 
 /* Set the round-off level of the works of a panel. */
-static bool set_floor(struct ledger *ledger, struct ensemble *ensemble, struct panel *panel)
+static bool set_floor(struct ensemble *ensemble, struct panel *panel)
 {
     const double rounding = power_rounding;
     double roundoff = 0;
@@ -221,7 +221,7 @@ static bool set_floor(struct ledger *ledger, struct ensemble *ensemble, struct p
     }
     struct fbd_state *state = ensemble_look_group(ensemble, panel->group, panel->from, true);
     if (!state) return false;
-    struct rounded rounded = rounded_at(state, ledger->arrows); /* bodies at rest included */
+    struct rounded rounded = rounded_at(state); /* bodies at rest included */
     panel->floor = rounding * rounded.places + round_off(1, rounded.ways) * panel->length * panel->length +
                    panel->length * roundoff;
     return true;
@@ -241,7 +241,7 @@ static bool add_panel(struct ledger *ledger, struct ensemble *ensemble, struct p
     double size = sums->lively + sums->turnover + look.turnover;
     double energy = panel.length * look.missed;
     bool more = energy > share * tolerance * size;
-    if (more && panel.halved == 0 && !set_floor(ledger, ensemble, &panel)) return false;
+    if (more && panel.halved == 0 && !set_floor(ensemble, &panel)) return false;
     more = more && energy > panel.floor &&
            (look.waves || panel.halved < at_once || look.missed < progress * panel.missed);
     if (more && panel.halved < most_halved) {
@@ -283,11 +283,12 @@ static bool keeps_forces(const struct ledger *ledger, const struct group *group)
 static bool add_constant(struct ledger *ledger, struct ensemble *ensemble, size_t index, struct time_dd from,
                          struct time_dd to, struct sums *sums)
 {
-    const struct group *group = &ensemble->groups[index];
+    struct group *group = &ensemble->groups[index];
+    struct fbd_state *probe = ensemble_probe(ensemble, group);
     const double length = time_dd_since(to, from);
     for (size_t i = 0; i < group->model->load_count; i++) ledger->powers[group_load(group, (int)i)] = 0;
-    if (!run_look_mean(group->run, from, to, group->probe)) return false;
-    add_powers(ledger, group, group->probe, true, ledger->powers);
+    if (!probe || !run_look_mean(group->run, from, to, probe)) return false;
+    add_powers(ledger, group, probe, true, ledger->powers);
     for (size_t i = 0; i < group->model->load_count; i++) {
         int load = group_load(group, (int)i);
         if (!ledger->integrated[load]) continue;

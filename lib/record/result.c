@@ -69,18 +69,20 @@ bool fbd_result_accurate(const fbd_result *result)
 
 /* ---- cost */
 
-static void add_stats(fbd_stats *stats, const struct run *run)
+static void add_stats(fbd_stats *stats, const struct ensemble *ensemble)
 {
-    const struct stepper_counts counts = switcher_counts(run->stepper);
-    stats->stiff_steps += switcher_stiff_steps(run->stepper);
-    stats->steps += counts.accepted;
-    stats->rhs += run->system.rhs;
-    stats->jacobians += run->system.jacobians;
-    stats->event_samples += (unsigned long)(run->search.timed.samples + run->search.moving.samples);
-    for (int kind = 0; kind < rejection_kinds; kind++) stats->rejected += counts.rejected[kind];
-    stats->linear += run->kind == structure_linear;
-    stats->constant += structure_is_one_step(run->kind);
-    stats->velocity_free += run->kind == structure_velocity_free;
+    for (size_t i = 0; i < ensemble->count; i++) {
+        const struct run_totals totals = group_totals(&ensemble->groups[i]);
+        stats->stiff_steps += totals.stiff_steps;
+        stats->steps += totals.steps;
+        stats->rhs += totals.rhs;
+        stats->jacobians += totals.jacobians;
+        stats->event_samples += totals.event_samples;
+        stats->rejected += totals.rejected;
+        stats->linear += totals.kind == structure_linear;
+        stats->constant += structure_is_one_step(totals.kind);
+        stats->velocity_free += totals.kind == structure_velocity_free;
+    }
 }
 
 fbd_stats fbd_simulation_stats(const fbd_simulation *simulation)
@@ -97,14 +99,13 @@ fbd_stats fbd_simulation_stats(const fbd_simulation *simulation)
                        .accuracy = simulation->accuracy,
                        .runs = simulation->runs,
                        .seconds_spent = simulation->seconds_spent};
-    for (size_t i = 0; i < ensemble->count; i++) add_stats(&stats, ensemble->groups[i].run);
+    add_stats(&stats, ensemble);
     if (simulation->bars) {
         const struct companion *companion = simulation->bars->companion;
         if (ensemble->outcome != FBD_GOING) bars_catch_up(simulation->bars, ensemble);
         stats.error_estimate = companion_global(companion);
         fbd_stats other = {0};
-        for (size_t i = 0; i < companion->ensemble->count; i++)
-            add_stats(&other, companion->ensemble->groups[i].run);
+        add_stats(&other, companion->ensemble);
         stats.companion_steps = other.steps;
         stats.companion_rhs = other.rhs;
     }

@@ -46,8 +46,9 @@ static double slid_size(const struct fbd_state *state, const struct model_body *
     return size;
 }
 
-static struct sums sums_of(const struct fbd_state *state, int b, struct arrow *arrows)
+static struct sums sums_of(const struct fbd_state *state, int b)
 {
+    struct arrow *arrows = state->arrows;
     const struct fbd_model *model = state->model;
     const struct model_body *body = &model->bodies[b];
     const struct instant at = state_instant(state);
@@ -110,7 +111,7 @@ static double turn_of_track(const struct fbd_state *state, const struct model_bo
  * compared with their distance from the origin. Accelerations are sums, too, of those of the parent bodies
  * and of the terms of their rotation, at the present speed and distance: a body without forces has m a = 0
  * only to the rounding of m times these. */
-static struct answer_levels joined_level(const struct fbd_state *state, struct arrow *arrows)
+static struct answer_levels joined_level(const struct fbd_state *state)
 {
     const struct tree *tree = state->model->tree;
     const struct tree_work *work = state->tree;
@@ -118,7 +119,7 @@ static struct answer_levels joined_level(const struct fbd_state *state, struct a
     for (int i = 0; i < tree->joined_count; i++) {
         const struct model_body *body = &state->model->bodies[tree->bodies[i]];
         const struct tree_state *link = &work->links[body->place.link];
-        struct sums sums = sums_of(state, tree->bodies[i], arrows);
+        struct sums sums = sums_of(state, tree->bodies[i]);
         force = fmax(force, sums.force);
         reach = fmax(reach, sums.reach);
         away = fmax(away, vec_norm(link->p));
@@ -155,7 +156,7 @@ static void say(const struct fbd_state *state, const struct worst *worst, struct
 /* Changes of the inertia force and moment of each body when each number of the state changes by one rounding,
  * which stiff springs for example amplify: the forces of two evaluations differ by that. NULL without memory.
  */
-static struct answer_levels *find_answers(const struct fbd_state *state, struct arrow *arrows)
+static struct answer_levels *find_answers(const struct fbd_state *state)
 {
     const size_t bodies = state->model->body_count;
     struct answer_levels *answers = block_alloc((bodies + 1) * sizeof *answers);
@@ -173,7 +174,7 @@ static struct answer_levels *find_answers(const struct fbd_state *state, struct 
         there->y[i] += DBL_EPSILON * fabs(state->y[i]);
         state_evaluate(there);
         for (size_t b = 0; b < bodies; b++) {
-            struct sums still = sums_of(here, (int)b, arrows), moved = sums_of(there, (int)b, arrows);
+            struct sums still = sums_of(here, (int)b), moved = sums_of(there, (int)b);
             double force = vec_norm(vec_sub(moved.m_a, still.m_a)),
                    moment = fabs(moved.I_alpha - still.I_alpha);
             if (isfinite(force)) answers[b].force += force;
@@ -187,13 +188,13 @@ static struct answer_levels *find_answers(const struct fbd_state *state, struct 
 
 /* The equation with the largest residual relative to round-off, at least `joined` for a jointed body; none if
  * all are below. `answers` may be NULL. */
-static struct worst find_worst(const struct fbd_state *state, struct arrow *arrows,
-                               struct answer_levels joined, const struct answer_levels *answers)
+static struct worst find_worst(const struct fbd_state *state, struct answer_levels joined,
+                               const struct answer_levels *answers)
 {
     const double roundings = 16;
     struct worst worst = {.ratio = 1};
     for (int b = 0; b < (int)state->model->body_count; b++) {
-        struct sums sums = sums_of(state, b, arrows);
+        struct sums sums = sums_of(state, b);
         double force = answer_level * sums.force;
         bool jointed = !state->model->bodies[b].alone;
         if (jointed) force = fmax(force, joined.force);
@@ -210,34 +211,34 @@ static struct worst find_worst(const struct fbd_state *state, struct arrow *arro
     return worst;
 }
 
-bool balance_lack(struct fbd_state *state, struct arrow *arrows, struct text *lack)
+bool balance_lack(struct fbd_state *state, struct text *lack)
 {
     struct instant at = state_instant(state);
     bool used = !state->tree->complete || (!state->tree->shared && rest_is_open(state->model, &at));
     if (used) state_evaluate(state); /* its scratch was overwritten */
-    struct worst worst = find_worst(state, arrows, (struct answer_levels){0, 0}, NULL);
+    struct worst worst = find_worst(state, (struct answer_levels){0, 0}, NULL);
     if (!worst.what) return false; /* nearly always; the levels of jointed bodies are not needed */
-    const struct answer_levels joined = joined_level(state, arrows);
-    worst = find_worst(state, arrows, joined, NULL);
+    const struct answer_levels joined = joined_level(state);
+    worst = find_worst(state, joined, NULL);
     if (!worst.what) return false;
-    struct answer_levels *answers = find_answers(state, arrows);
+    struct answer_levels *answers = find_answers(state);
     if (!answers) {
         lack->failed = true;
         return true;
     }
-    worst = find_worst(state, arrows, joined, answers);
+    worst = find_worst(state, joined, answers);
     free(answers);
     if (worst.what) say(state, &worst, lack);
     return worst.what != NULL;
 }
 
-double balance_size(const struct fbd_state *state, struct arrow *arrows)
+double balance_size(const struct fbd_state *state)
 {
     const struct instant at = state_instant(state);
     double size = 0;
     for (int b = 0; b < (int)state->model->body_count; b++) {
         const struct model_body *body = &state->model->bodies[b];
-        const struct sums sums = sums_of(state, b, arrows);
+        const struct sums sums = sums_of(state, b);
         const double m = body_mass(body, &at), I_G = body_inertia(body, &at).I_G;
         if (m > 0) size = fmax(size, sums.force / m);
         if (I_G > 0) size = fmax(size, sums.moment / I_G);

@@ -15,11 +15,11 @@
 
 /* Describe the equation with the largest residual relative to rounding, at the evaluated state. Returns
  * false, with nothing added to `lack`, when all equations are satisfied; without memory true, and `lack` has
- * failed. `arrows` is scratch: diagram_most_arrows. */
-bool balance_lack(struct fbd_state *state, struct arrow *arrows, struct text *lack);
+ * failed. */
+bool balance_lack(struct fbd_state *state, struct text *lack);
 
 /* The largest acceleration of a body that the sum of the magnitudes of its forces would cause, at the
  * evaluated state: the reference for round-off of balanced forces. */
-double balance_size(const struct fbd_state *state, struct arrow *arrows);
+double balance_size(const struct fbd_state *state);
 
 #endif

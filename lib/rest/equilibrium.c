@@ -31,7 +31,6 @@ struct resting {
     int *slip;     /* of the modes: those at the start */
     double *Q;     /* n: generalized forces without those of couplings, which do no work along a step */
     double *slots, *lambda; /* for rest_forces; lambda is zero */
-    struct arrow *arrows;   /* scratch of balance_size */
 };
 
 /* The unknowns: coordinates, and user states, whose rates must vanish as well as the accelerations. */
@@ -412,7 +411,7 @@ static bool measure(struct resting *balance)
     state_evaluate(state);
     double size = equilibrium_size(state);
     /* A start in equilibrium has accelerations at round-off level only, which are no scale. */
-    balance->zero = fmax(1e-13 * size, 1e-15 * balance_size(state, balance->arrows));
+    balance->zero = fmax(1e-13 * size, 1e-15 * balance_size(state));
     for (size_t i = 0; i < unknowns_of(balance); i++) balance->scale[i] = 1;
     for (size_t i = n; i < unknowns_of(balance); i++) {
         double rate = fabs(state->a[i]) + user_state_rate_size(state, (int)(i - n));
@@ -428,7 +427,6 @@ static void balance_free(struct resting *balance)
     free(balance->share);
     free(balance->start);
     free(balance->slip);
-    free(balance->arrows);
 }
 
 /* 1 made, 0 the start is not finite, -1 out of memory. */
@@ -443,11 +441,8 @@ static int balance_new(struct resting *balance, struct fbd_state *state)
                                 .work = calloc(size * size + size + 1, sizeof(double)),
                                 .share = coupled ? calloc(n * n + 1, sizeof(double)) : NULL,
                                 .start = calloc(2 * unknowns + n + slots + rows + 1, sizeof(double)),
-                                .slip = calloc(state->model->plan.mode_count + 1, sizeof(int)),
-                                .arrows = calloc(diagram_most_arrows(state->model), sizeof *balance->arrows)};
-    if (!balance->work || !balance->start || !balance->slip || !balance->arrows ||
-        (coupled && !balance->share))
-        return -1;
+                                .slip = calloc(state->model->plan.mode_count + 1, sizeof(int))};
+    if (!balance->work || !balance->start || !balance->slip || (coupled && !balance->share)) return -1;
     balance->scale = balance->start + unknowns;
     balance->Q = balance->scale + unknowns;
     balance->slots = balance->Q + n;

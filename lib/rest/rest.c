@@ -3,7 +3,6 @@
  * Equilibrium of a scene: conditions, search and stability.
  */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/api_check.h"
@@ -130,11 +129,7 @@ bool equilibrium_holds(struct fbd_state *state)
         if (!(fabs(state->a[state->model->plan.n + i]) <= rounding * user_state_rate_size(state, i)))
             return false;
     if (most <= rounding * equilibrium_size(state)) return true;
-    struct arrow *arrows = calloc(diagram_most_arrows(state->model), sizeof *arrows);
-    if (!arrows) state->holds.found = holds_no_memory;
-    bool balanced = arrows && most <= of_forces * balance_size(state, arrows);
-    free(arrows);
-    return balanced;
+    return most <= of_forces * balance_size(state);
 }
 
 void equilibrium_refuse(fbd_errors *errors)

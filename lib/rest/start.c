@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "rest/start.h"
 
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/block_alloc.h"
 #include "dynamics/contact.h"
 #include "dynamics/friction.h"
 #include "dynamics/modes.h"
@@ -19,9 +17,7 @@
 bool start_finite(const struct fbd_state *state, struct lack *lack)
 {
     struct nonfinite found;
-    enum finite finite = nonfinite_check(state, &found);
-    if (finite == finite_all) return true;
-    if (finite == finite_no_memory) return false;
+    if (!nonfinite_find(state, &found)) return true;
     lack->id = "not-finite";
     lack->at = found.at;
     text_printf(&lack->text, "%s is not finite at t = ", found.what);
@@ -221,11 +217,9 @@ static bool is_free_to_move(struct fbd_state *state, struct fbd_state *other, st
 /* The forces balance the accelerations. */
 static bool is_balanced(struct fbd_state *state, struct lack *lack)
 {
-    struct arrow *arrows = block_alloc(diagram_most_arrows(state->model) * sizeof *arrows);
-    bool balanced = arrows && !balance_lack(state, arrows, &lack->text);
-    if (arrows && !balanced) lack->id = "forces-unbalanced";
-    free(arrows);
-    return balanced;
+    if (!balance_lack(state, &lack->text)) return true;
+    lack->id = "forces-unbalanced";
+    return false;
 }
 
 void negative_friction_words(const struct fbd_model *model, int pair, double mu, double t, struct text *text)

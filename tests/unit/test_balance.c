@@ -22,7 +22,6 @@
 struct subject {
     fbd_model *model;
     struct fbd_state *state;
-    struct arrow *arrows;
 };
 
 /* A random tree somewhere near its start, in motion. */
@@ -37,8 +36,7 @@ static struct subject subject_of(struct random_numbers *numbers)
     reading.scene = NULL;
     assert_non_null(subject.model);
     subject.state = state_new(subject.model);
-    subject.arrows = calloc(diagram_most_arrows(subject.model), sizeof *subject.arrows);
-    assert_true(subject.state && subject.arrows);
+    assert_non_null(subject.state);
     int n = subject.model->plan.n;
     for (int i = 0; i < 2 * n; i++) subject.state->y[i] += random_between(numbers, -1e-3, 1e-3);
     modes_settle(subject.state, NULL);
@@ -49,7 +47,6 @@ static struct subject subject_of(struct random_numbers *numbers)
 
 static void release(struct subject *subject)
 {
-    free(subject->arrows);
     state_free(subject->state);
     fbd_model_free(subject->model);
 }
@@ -73,7 +70,7 @@ static void random_trees_balance(void **unused)
         struct random_numbers numbers = {seed};
         struct subject subject = subject_of(&numbers);
         struct text lack = {0};
-        if (balance_lack(subject.state, subject.arrows, &lack) && slipping(&subject) < 2) {
+        if (balance_lack(subject.state, &lack) && slipping(&subject) < 2) {
             print_error("seed %d: %s\n", (int)seed, lack.data);
             alarms++;
         }
@@ -106,7 +103,7 @@ static void a_millionth_is_noticed(void **unused)
             most = fmax(most, fabs(state->tree->rows[j].lambda));
         state->tree->links[link].A.a.x += 1e-6 * most / subject.model->tree->links[link].mass;
         struct text lack = {0};
-        if (!balance_lack(state, subject.arrows, &lack)) {
+        if (!balance_lack(state, &lack)) {
             print_error("seed %d: link %d\n", (int)seed, link);
             missed++;
         } else {
@@ -125,7 +122,7 @@ static void what_is_not_a_number_is_off(void **unused)
     struct subject subject = subject_of(&numbers);
     struct text lack = {0};
     subject.state->tree->links[1].A.a.y = NAN;
-    assert_true(balance_lack(subject.state, subject.arrows, &lack));
+    assert_true(balance_lack(subject.state, &lack));
     text_free(&lack);
     release(&subject);
 }
@@ -138,12 +135,11 @@ static bool raises_alarm(int scene, const char *text, double beside)
     reading.scene = NULL;
     assert_non_null(subject.model);
     subject.state = state_new(subject.model);
-    subject.arrows = calloc(diagram_most_arrows(subject.model), sizeof *subject.arrows);
-    assert_true(subject.state && subject.arrows);
+    assert_non_null(subject.state);
     for (int k = 0; k < 2 * subject.model->plan.n; k++) subject.state->y[k] += beside;
     modes_settle(subject.state, NULL);
     struct text lack = {0};
-    bool alarm = balance_lack(subject.state, subject.arrows, &lack);
+    bool alarm = balance_lack(subject.state, &lack);
     if (alarm) print_error("scene %d: %s\n", scene, lack.data);
     text_free(&lack);
     end_reading(&reading);

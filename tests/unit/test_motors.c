@@ -274,12 +274,9 @@ static void compare(struct checks *checks, const char *what, const double *a, co
 
 static bool is_balanced(struct assembled *of)
 {
-    struct arrow *arrows = calloc(diagram_most_arrows(of->model), sizeof *arrows);
     struct text lack = {0};
-    assert_non_null(arrows);
-    const bool balanced = !balance_lack(of->state, arrows, &lack);
+    const bool balanced = !balance_lack(of->state, &lack);
     text_free(&lack);
-    free(arrows);
     return balanced;
 }
 
