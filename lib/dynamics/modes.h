@@ -25,8 +25,9 @@ struct decided {
 bool modes_settle(struct fbd_state *state, const struct decided *decided);
 
 /* Decide all unilateral constraints between jointed bodies together: friction, ropes, contacts
- * (tree_holds.c). False when that has changed state->slip; the cause of a failure is in state->holds. */
-bool tree_settle_holds(struct fbd_state *state, const struct decided *decided);
+ * (tree_holds.c). False when that has changed state->slip; the cause of a failure is in state->holds. Sets
+ * `jointly` to whether there are any to be decided, or indeterminate reactions. */
+bool tree_settle_holds(struct fbd_state *state, const struct decided *decided, bool *jointly);
 
 struct arena;
 struct rest_margin;

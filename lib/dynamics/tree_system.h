@@ -19,6 +19,9 @@ void tree_system_factor(const struct fbd_model *model, const struct instant *at)
 /* Set work->scale, work->most and work->apart for the rows of the system, given its diagonal. */
 void tree_set_scales(const struct tree *tree, struct tree_work *work);
 
+/* Leave the system without active unknowns, solved. */
+void tree_system_empty(const struct fbd_model *model, struct tree_work *work);
+
 /* Factor it again with another damping. */
 void tree_system_refactor(const struct tree *tree, struct tree_work *work);
 
