@@ -46,6 +46,9 @@ bool tree_give_shared(struct fbd_state *state, int pair, struct decided *decided
 /* Is it a mode of a coupling that has ended? Then it is open, and has no events. */
 bool mode_has_ended(const struct fbd_state *state, int pair);
 
+/* Has the rolling or touching body of a friction left its surface? Then there is no friction. */
+bool mode_is_off_surface(const struct fbd_state *state, int pair);
+
 /* The velocity of a friction constraint relative to its surface. */
 double slip_velocity(const struct fbd_model *model, int pair, const struct instant *at);
 
