@@ -51,6 +51,13 @@ bool tree_takes_part(const struct tree *tree, const struct instant *at, int k)
     return !open && (!has_mode || at->slip[coupling->pair] == stick);
 }
 
+bool tree_rows_are_idle(const struct tree *tree, const struct instant *at)
+{
+    for (int j = 0; j < tree->row_count; j++)
+        if (tree_takes_part(tree, at, j)) return false;
+    return true;
+}
+
 /* ---- forces of an unknown on the links */
 
 void row_apply(const struct row *row, double lambda, struct tree_rhs *x)

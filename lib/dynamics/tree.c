@@ -282,15 +282,6 @@ static void add_accelerations(const struct tree *tree, struct tree_work *work)
     }
 }
 
-/* Is no row active, as in free flight? */
-static bool is_free(const struct tree *tree, const struct instant *at)
-{
-    if (tree->watched_count + tree->pair_count > 0) return false;
-    for (int j = 0; j < tree->row_count; j++)
-        if (tree_takes_part(tree, at, j)) return false;
-    return true;
-}
-
 /* Solve for the multipliers, given the accelerations without them. */
 static void solve_system(const struct fbd_model *model, const struct instant *at)
 {
@@ -311,7 +302,7 @@ static void close_system(const struct fbd_model *model, const struct instant *at
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
-    const bool free = is_free(tree, at);
+    const bool free = tree->watched_count + tree->pair_count == 0 && tree_rows_are_idle(tree, at);
     constraints_select(tree, at);
     if (free) {
         tree_system_empty(model, work);

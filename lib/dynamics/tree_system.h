@@ -45,6 +45,9 @@ void tree_apply_variations(const struct fbd_model *model, const struct instant *
 /* Is unknown k active in the modes of the instant? */
 bool tree_takes_part(const struct tree *tree, const struct instant *at, int k);
 
+/* Is no row active, as in free flight? */
+bool tree_rows_are_idle(const struct tree *tree, const struct instant *at);
+
 /* The ratio of the multiplier of the row after row k to that of row k, if the body of row k slips with
  * friction on its surface; else 0. */
 double tree_rubbing_share(const struct fbd_model *model, const struct instant *at, int k);
