@@ -186,8 +186,8 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
     return same;
 }
 
-/* A pass without changes is final, with the forces of its evaluation, if modes depend on the state and other
- * modes only, not on constraints decided together or sliding modes; else the second one is. */
+/* A pass without changes is final, with the forces of its evaluation, as the next one would repeat it; where
+ * constraints are decided together, or switches may slide, the second one is. */
 static bool settle(struct fbd_state *state, const struct decided *decided)
 {
     enum { most_passes = 12, around = 6 };
@@ -203,7 +203,7 @@ static bool settle(struct fbd_state *state, const struct decided *decided)
         bool same = settle_branches(state, decided, &flow, pass >= around), jointly = false;
         if (plan->mode_count > 0) same = settle_slips(state, decided, &flow, &jointly) && same;
         if (state->holds.found >= holds_none) return false;
-        bool final = !jointly && !state->sliding && plan->kink_count == 0;
+        bool final = !jointly && !state->sliding;
         if (same && (!first || final)) {
             if (modes_hold_settling(state) || jointly || state_sliding(state)) state_evaluate(state);
             return state->holds.found < holds_none;

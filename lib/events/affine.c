@@ -74,7 +74,8 @@ static bool find_stick_limit(const struct fbd_state *state, const struct watcher
 }
 
 /* Add n . p of a point of a link that moves on the ground: any point of a slider, else the origin. */
-static bool add_position(const struct fbd_model *model, int index, struct vec point, struct vec n, struct affine *f)
+static bool add_position(const struct fbd_model *model, int index, struct vec point, struct vec n,
+                         struct affine *f)
 {
     const struct tree_link *link = &model->tree->links[index];
     const bool origin = point.x == 0 && point.y == 0;
@@ -135,8 +136,8 @@ static bool find_present_gap(const struct fbd_state *state, const struct watcher
     return true;
 }
 
-void affine_find(const struct watchers *watchers, const struct fbd_state *state, const struct watcher *watcher,
-                 struct affine *f)
+void affine_find(const struct watchers *watchers, const struct fbd_state *state,
+                 const struct watcher *watcher, struct affine *f)
 {
     clear(f);
     if (watcher->kind == watch_gap)

@@ -40,8 +40,8 @@ struct affine {
 };
 
 /* Set f to the function of a watcher in the modes of `state`. */
-void affine_find(const struct watchers *watchers, const struct fbd_state *state, const struct watcher *watcher,
-                 struct affine *f);
+void affine_find(const struct watchers *watchers, const struct fbd_state *state,
+                 const struct watcher *watcher, struct affine *f);
 
 /* Is the gap of a contact pair affine in all modes? Flags the components of y that it reads in `used`, or NULL. */
 bool affine_mark_gap(const struct fbd_model *model, int index, bool *used);

@@ -275,7 +275,8 @@ void run_apply_touched(struct run *run, bool at_event)
 static bool any_switch(const struct watcher_set *set, const bool *crossed)
 {
     bool any = false;
-    for (size_t i = 0; crossed && i < set->count; i++) any |= crossed[i] && set->watchers[i].kind == watch_kink;
+    for (size_t i = 0; crossed && i < set->count; i++)
+        any |= crossed[i] && set->watchers[i].kind == watch_kink;
     return any;
 }
 
