@@ -118,7 +118,7 @@ static void json_escape(struct text *text, unsigned code)
                     0xDC00 + ((code - first) & 0x3FF));
 }
 
-/* The length of the beginning of `string` that is ASCII without escapes: usually all of it. */
+/* The length of the beginning of `string` that is ASCII without escapes. */
 static size_t json_plain(const char *string)
 {
     const char *end = string;
@@ -126,9 +126,25 @@ static size_t json_plain(const char *string)
     return (size_t)(end - string);
 }
 
+/* Usually that is all of it. */
+static void add_quoted(struct text *text, const char *plain, size_t length)
+{
+    if (!text_reserve(text, length + 2)) return;
+    char *to = text->data + text->length;
+    *to = '"';
+    memcpy(to + 1, plain, length);
+    memcpy(to + 1 + length, "\"", 2);
+    text->length += length + 2;
+}
+
 void text_json_string(struct text *text, const char *string)
 {
     const unsigned replacement = 0xFFFD;
+    size_t first = json_plain(string);
+    if (!string[first]) {
+        add_quoted(text, string, first);
+        return;
+    }
     text_add_bytes(text, "\"", 1);
     for (;;) {
         size_t plain = json_plain(string);
