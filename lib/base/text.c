@@ -118,11 +118,39 @@ static void json_escape(struct text *text, unsigned code)
                     0xDC00 + ((code - first) & 0x3FF));
 }
 
+/* The length of the beginning of `string` that is ASCII without escapes. */
+static size_t json_plain(const char *string)
+{
+    const char *end = string;
+    while (*end >= ' ' && *end <= '~' && *end != '"' && *end != '\\') end++;
+    return (size_t)(end - string);
+}
+
+/* Usually that is all of it. */
+static void add_quoted(struct text *text, const char *plain, size_t length)
+{
+    if (!text_reserve(text, length + 2)) return;
+    char *to = text->data + text->length;
+    *to = '"';
+    memcpy(to + 1, plain, length);
+    memcpy(to + 1 + length, "\"", 2);
+    text->length += length + 2;
+}
+
 void text_json_string(struct text *text, const char *string)
 {
     const unsigned replacement = 0xFFFD;
-    text_add(text, "\"");
-    while (*string) {
+    size_t first = json_plain(string);
+    if (!string[first]) {
+        add_quoted(text, string, first);
+        return;
+    }
+    text_add_bytes(text, "\"", 1);
+    for (;;) {
+        size_t plain = json_plain(string);
+        text_add_bytes(text, string, plain);
+        string += plain;
+        if (!*string) break;
         unsigned code = replacement;
         size_t width = utf8_decode(string, strnlen(string, 4), &code);
         if (code == '"' || code == '\\')
@@ -137,7 +165,7 @@ void text_json_string(struct text *text, const char *string)
             text_add_bytes(text, string, width);
         string += width ? width : 1;
     }
-    text_add(text, "\"");
+    text_add_bytes(text, "\"", 1);
 }
 
 void text_json_key(struct text *text, const char *name)

@@ -51,6 +51,13 @@ bool tree_takes_part(const struct tree *tree, const struct instant *at, int k)
     return !open && (!has_mode || at->slip[coupling->pair] == stick);
 }
 
+bool tree_rows_are_idle(const struct tree *tree, const struct instant *at)
+{
+    for (int j = 0; j < tree->row_count; j++)
+        if (tree_takes_part(tree, at, j)) return false;
+    return true;
+}
+
 /* ---- forces of an unknown on the links */
 
 void row_apply(const struct row *row, double lambda, struct tree_rhs *x)
@@ -285,6 +292,7 @@ void tree_system_assemble(const struct fbd_model *model, const struct instant *a
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
     set_places(model, at);
+    if (work->count == 0) return;
     work->symmetric = model->plan.mode_count == 0 || has_rows_only(model, at);
     if (system_has_paths(tree, work)) {
         assemble_paths(tree, work);
@@ -293,6 +301,26 @@ void tree_system_assemble(const struct fbd_model *model, const struct instant *a
         assemble_columns(model, at);
     }
     tree_set_scales(tree, work);
+}
+
+/* No response to no forces. */
+static void answer_none(const struct fbd_model *model, struct tree_work *work)
+{
+    clear_range(work->x, 0, model->tree->count);
+    memset(work->unit, 0, (size_t)model->plan.n * sizeof *work->unit);
+}
+
+void tree_system_empty(const struct fbd_model *model, struct tree_work *work)
+{
+    const struct tree *tree = model->tree;
+    for (int j = 0; j < tree->row_count; j++) work->rows[j].redundant = work->rows[j].weak = false;
+    for (int k = 0; k < tree_unknowns(tree); k++) {
+        work->place[k] = -1;
+        work->z[k] = 0;
+    }
+    work->count = 0;
+    work->placed = false;
+    answer_none(model, work);
 }
 
 double tree_row_answer(const struct tree_work *work, int j)
@@ -329,6 +357,10 @@ void tree_system_answer(const struct fbd_model *model, const struct instant *at,
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
+    if (work->count == 0) {
+        answer_none(model, work);
+        return;
+    }
     if (work->rates_only && system_has_paths(tree, work) && !work->apart) {
         answer_pushes(tree, work, z);
     } else {

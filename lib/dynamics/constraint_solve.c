@@ -204,5 +204,5 @@ void tree_system_solve(const struct fbd_model *model, const struct instant *at, 
     memcpy(work->wanted, z, (size_t)m * sizeof *z);
     solve(work, z);
     tree_system_answer(model, at, z);
-    if (work->apart && !work->projecting) refine(model, at, z);
+    if (work->count > 0 && work->apart && !work->projecting) refine(model, at, z);
 }

@@ -282,6 +282,14 @@ bool coupling_is_closed(const struct fbd_model *model, const struct instant *at,
     return at->slip[model->tree->couplings[coupling].surface] == stick;
 }
 
+bool meeting_is_closed(const struct fbd_model *model, const struct instant *at, int index)
+{
+    const struct meeting *meeting = &model->tree->meetings[index];
+    int coupling;
+    return meeting_is_gone(at->tree, meeting) ||
+           closed_couplings(model, at, index, &coupling) == meeting->coupling_count;
+}
+
 static const struct gap nothing = {HUGE_VAL, 0, no_feature};
 
 /* Without a closed feature: the separation. With a corner on a side: the gaps of its neighbours at that side. */

@@ -42,6 +42,9 @@ struct place_on_side feature_foot(const struct fbd_model *model, const struct tr
  * closed features exclude one. Modes are those of the instant. */
 struct gap meeting_probe(const struct fbd_model *model, const struct instant *at, int index, int probe);
 
+/* Can no further feature touch, as the closed ones exclude it or the contact has ended? */
+bool meeting_is_closed(const struct fbd_model *model, const struct instant *at, int index);
+
 /* The penetration of the shapes by features that are not closed; 0 without one. */
 double meeting_depth(const struct fbd_model *model, const struct instant *at, int index);
 

@@ -71,7 +71,8 @@ void accelerations_at_shares(const struct fbd_model *model, const struct instant
     struct instant extended;
     const struct instant *at = instant_with_places(model, given, &extended);
     force_slots(model, at, slots);
-    tree_accelerations(model, at, slots, a);
+    tree_accelerations(model, at, slots, at->tree->a);
+    memcpy(a, at->tree->a, (size_t)model->plan.n * sizeof *a);
     for (int pair = 0; pair < (int)model->plan.mode_count; pair++)
         if (holds_coordinate(&model->plan, at, pair))
             friction_surface_speed(&model->plan.modes[pair], at, &a[model->plan.modes[pair].coordinate]);

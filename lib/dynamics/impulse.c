@@ -14,7 +14,7 @@ void impulse_look(struct fbd_state *state)
     constraints_evaluate(state->model, &at, NULL);
 }
 
-/* Factor the tree without loads and bias; prescribed joints are locked. */
+/* Factor the tree without loads and bias, at links that have been looked at; prescribed joints are locked. */
 static void factor_tree(struct fbd_state *state)
 {
     const struct fbd_model *model = state->model;
@@ -24,7 +24,6 @@ static void factor_tree(struct fbd_state *state)
         work->links[i].locked = model->bodies[tree->links[i].body].source->motion.prescribed.expr != NULL;
         work->links[i].held = 0;
     }
-    impulse_look(state);
     memset(work->x, 0, (size_t)tree->count * sizeof *work->x);
     tree_factor(tree, work);
 }

@@ -150,7 +150,17 @@ static bool settle_pull(const struct settling *settling, int pair)
     return same;
 }
 
-static bool settle_slips(struct fbd_state *state, const struct decided *decided, const struct direction *flow)
+/* Are there modes that forces decide one by one? */
+static bool has_singles(const struct fbd_model *model)
+{
+    for (size_t pair = 0; pair < model->plan.mode_count; pair++)
+        if (model->plan.modes[pair].kind == mode_single) return true;
+    return false;
+}
+
+/* `jointly`: constraints have been decided together, or reactions are indeterminate. */
+static bool settle_slips(struct fbd_state *state, const struct decided *decided, const struct direction *flow,
+                         bool *jointly)
 {
     const struct fbd_model *model = state->model;
     const struct plan *plan = &model->plan;
@@ -159,8 +169,10 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
     struct instant at = state_instant(state);
     bool same = true;
     if (at.sliding) sliding_solve_along(model, &at, flow);
-    force_balance(model, &at, scratch.slots);
-    force_balance_along(model, &at, flow, scratch.slots, scratch.slots_along);
+    if (has_singles(model)) {
+        force_balance(model, &at, scratch.slots);
+        force_balance_along(model, &at, flow, scratch.slots, scratch.slots_along);
+    }
     for (int pair = 0; pair < (int)plan->mode_count; pair++) {
         enum mode_kind kind = plan->modes[pair].kind;
         same = settle_pull(&settling, pair) && same;
@@ -170,17 +182,12 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
         same = same && state->slip[pair] == next;
         state->slip[pair] = next;
     }
-    if (tree_joins(model->tree) && plan->mode_count > 0) same = tree_settle_holds(state, decided) && same;
+    if (tree_joins(model->tree)) same = tree_settle_holds(state, decided, jointly) && same;
     return same;
 }
 
-/* Is one pass without changes final? It is, if modes depend on the state and other modes only, not on
- * constraints decided together or sliding modes. */
-static bool tells_at_once(const struct fbd_state *state)
-{
-    return !tree_joins(state->model->tree) && !state->sliding && state->model->plan.kink_count == 0;
-}
-
+/* A pass without changes is final, with the forces of its evaluation, as the next one would repeat it; where
+ * constraints are decided together, or switches may slide, the second one is. */
 static bool settle(struct fbd_state *state, const struct decided *decided)
 {
     enum { most_passes = 12, around = 6 };
@@ -193,12 +200,12 @@ static bool settle(struct fbd_state *state, const struct decided *decided)
         state_evaluate(state);
         if (plan->kink_count + plan->mode_count == 0) return state->holds.found < holds_none;
         struct direction flow = flow_of(state);
-        bool same = settle_branches(state, decided, &flow, pass >= around);
-        if (plan->mode_count > 0) same = settle_slips(state, decided, &flow) && same;
+        bool same = settle_branches(state, decided, &flow, pass >= around), jointly = false;
+        if (plan->mode_count > 0) same = settle_slips(state, decided, &flow, &jointly) && same;
         if (state->holds.found >= holds_none) return false;
-        if (same && (!first || tells_at_once(state))) {
-            if (modes_hold_settling(state) || tree_joins(state->model->tree) || state_sliding(state))
-                state_evaluate(state);
+        bool final = !jointly && !state->sliding;
+        if (same && (!first || final)) {
+            if (modes_hold_settling(state) || jointly || state_sliding(state)) state_evaluate(state);
             return state->holds.found < holds_none;
         }
         first = false;

@@ -25,8 +25,9 @@ struct decided {
 bool modes_settle(struct fbd_state *state, const struct decided *decided);
 
 /* Decide all unilateral constraints between jointed bodies together: friction, ropes, contacts
- * (tree_holds.c). False when that has changed state->slip; the cause of a failure is in state->holds. */
-bool tree_settle_holds(struct fbd_state *state, const struct decided *decided);
+ * (tree_holds.c). False when that has changed state->slip; the cause of a failure is in state->holds. Sets
+ * `jointly` to whether there are any to be decided, or indeterminate reactions. */
+bool tree_settle_holds(struct fbd_state *state, const struct decided *decided, bool *jointly);
 
 struct arena;
 struct rest_margin;
@@ -44,6 +45,9 @@ bool tree_give_shared(struct fbd_state *state, int pair, struct decided *decided
 
 /* Is it a mode of a coupling that has ended? Then it is open, and has no events. */
 bool mode_has_ended(const struct fbd_state *state, int pair);
+
+/* Has the rolling or touching body of a friction left its surface? Then there is no friction. */
+bool mode_is_off_surface(const struct fbd_state *state, int pair);
 
 /* The velocity of a friction constraint relative to its surface. */
 double slip_velocity(const struct fbd_model *model, int pair, const struct instant *at);

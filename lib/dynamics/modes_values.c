@@ -13,6 +13,15 @@ bool mode_has_ended(const struct fbd_state *state, int pair)
     return coupling >= 0 && state->tree->couplings[coupling].gone;
 }
 
+bool mode_is_off_surface(const struct fbd_state *state, int pair)
+{
+    const int coupling = state->model->plan.modes[pair].coupling;
+    if (coupling < 0) return false;
+    if (state->tree->couplings[coupling].gone) return true;
+    int surface = state->model->tree->couplings[coupling].surface;
+    return surface >= 0 && state->slip[surface] != stick;
+}
+
 double slip_velocity(const struct fbd_model *model, int pair, const struct instant *at)
 {
     const struct mode *mode = &model->plan.modes[pair];

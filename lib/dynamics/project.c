@@ -37,6 +37,12 @@ static bool has_couplings(const struct fbd_model *model)
     return model->tree->coupling_count > 0;
 }
 
+/* Are there rows to be satisfied? */
+static bool is_constrained(const struct fbd_model *model, const struct instant *at)
+{
+    return has_couplings(model) && !tree_rows_are_idle(model->tree, at);
+}
+
 /* Evaluate links and rows. */
 static void look(const struct place *place)
 {
@@ -316,8 +322,8 @@ static double change_since(const struct place *place, const double *y, const dou
  * all may be far from velocities with a tiny residual. Then friction slips by that residual. */
 bool state_project_velocity(struct fbd_state *state, bool assemble)
 {
-    if (!has_couplings(state->model)) return true;
     struct place place = place_of(state, assemble);
+    if (!is_constrained(state->model, &place.at)) return true;
     size_t n = (size_t)state->model->plan.n, bytes = n * sizeof *state->y;
     double *before = state_scratch(state).dy;
     prepare(&place);
@@ -486,7 +492,7 @@ static void bring_back(const struct place *place)
 
 void return_to_constraints(const struct fbd_model *model, const struct instant *at, double *y)
 {
-    if (!has_couplings(model) || (at->tree->loop && tree_loop_return(at->tree->loop, y))) return;
+    if (!is_constrained(model, at) || (at->tree->loop && tree_loop_return(at->tree->loop, y))) return;
     if (at->tree->loops && closed_loops_close(at->tree->loops, at->tree, model->plan.n, y)) return;
     struct instant here = *at;
     here.y = y;

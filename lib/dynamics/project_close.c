@@ -5,13 +5,17 @@
  */
 #include "dynamics/energy.h"
 #include "dynamics/project.h"
-#include "dynamics/tree.h"
+#include "dynamics/tree_system.h"
 
 static struct closing close_any(struct fbd_state *state)
 {
+    const struct instant at = state_instant(state);
     struct closing closing;
     closing.off = state_misfit(state);
     closing.energy[0] = standing_kinetic_energy(state);
+    closing.left = closing.off;
+    closing.energy[1] = closing.energy[0];
+    if (tree_rows_are_idle(state->model->tree, &at)) return closing;
     state_return(state);
     closing.left = state_misfit(state);
     closing.energy[1] = standing_kinetic_energy(state);

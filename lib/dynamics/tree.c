@@ -282,31 +282,11 @@ static void add_accelerations(const struct tree *tree, struct tree_work *work)
     }
 }
 
-/* Is no row active, as in free flight? */
-static bool is_free(const struct tree *tree, const struct instant *at)
-{
-    if (tree->watched_count + tree->pair_count > 0) return false;
-    for (int j = 0; j < tree->row_count; j++)
-        if (tree_takes_part(tree, at, j)) return false;
-    return true;
-}
-
-/* Add the forces of constraints and of slipping slides. */
-static void close_system(const struct fbd_model *model, const struct instant *at, double *a)
+/* Solve for the multipliers, given the accelerations without them. */
+static void solve_system(const struct fbd_model *model, const struct instant *at)
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
-    constraints_select(tree, at);
-    if (work->rates_only)
-        constraints_evaluate_acting(model, at);
-    else
-        constraints_evaluate(model, at, NULL);
-    if (work->rates_only && is_free(tree, at)) {
-        for (int j = 0; j < tree->row_count; j++) work->rows[j].lambda = 0;
-        memset(work->unit, 0, (size_t)model->plan.n * sizeof *work->unit);
-        tree_add_unit(tree, work, a); /* no negative zeros, as after an addition */
-        return;
-    }
     for (int j = 0; j < tree->row_count; j++) work->z[j] = -work->rows[j].g.x2;
     for (int k = 0; k < tree->pair_count; k++) {
         int i = tree->pairs[k];
@@ -315,11 +295,29 @@ static void close_system(const struct fbd_model *model, const struct instant *at
     }
     tree_system_factor(model, at);
     tree_system_solve(model, at, work->z);
+}
+
+/* Add the forces of constraints and of slipping slides. */
+static void close_system(const struct fbd_model *model, const struct instant *at, double *a)
+{
+    const struct tree *tree = model->tree;
+    struct tree_work *work = at->tree;
+    const bool free = tree->watched_count + tree->pair_count == 0 && tree_rows_are_idle(tree, at);
+    constraints_select(tree, at);
+    if (free) {
+        tree_system_empty(model, work);
+    } else {
+        if (work->rates_only)
+            constraints_evaluate_acting(model, at);
+        else
+            constraints_evaluate(model, at, NULL);
+        solve_system(model, at);
+    }
     tree_take_multipliers(model, at);
-    tree_add_unit(tree, work, a);
-    if (tree->meeting_count > 0) drop_rounding(tree, work, a);
+    tree_add_unit(tree, work, a); /* where it is zero: no negative zeros */
+    if (!free && tree->meeting_count > 0) drop_rounding(tree, work, a);
     if (work->rates_only) return;
-    add_result(tree, work);
+    if (!free) add_result(tree, work);
     constraints_evaluate(model, at, NULL); /* with the resulting accelerations */
 }
 

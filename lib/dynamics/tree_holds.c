@@ -417,13 +417,24 @@ static bool look_later(struct fbd_state *state, const struct decided *decided, i
     return agreed;
 }
 
-bool tree_settle_holds(struct fbd_state *state, const struct decided *decided)
+/* Is there a constraint to be decided, or an indeterminate reaction? */
+static bool any_in_question(const struct fbd_state *state, const struct decided *decided, const int *forced)
+{
+    const struct instant at = state_instant(state);
+    for (int pair = 0; pair < (int)state->model->plan.mode_count; pair++)
+        if (hold_in_question(state, decided, forced, pair)) return true;
+    return rest_is_open(state->model, &at);
+}
+
+bool tree_settle_holds(struct fbd_state *state, const struct decided *decided, bool *jointly)
 {
     int *before = state->slip_before;
     size_t count = state->model->plan.mode_count, bytes = count * sizeof *before;
     int *forced = state->slip_forced;
     memcpy(before, state->slip, bytes);
     tree_find_frictionless(state, decided, forced);
+    *jointly = any_in_question(state, decided, forced);
+    if (!*jointly) return true;
     for (int pair = 0; pair < (int)count; pair++) {
         if (state->slip[pair] == stick || !hold_in_question(state, decided, forced, pair)) continue;
         const struct mode *hold = mode_of(state, pair);

@@ -14,7 +14,6 @@ struct direction tree_evaluate(struct fbd_state *state)
     accelerations(model, &at, scratch.slots, state->a);
     if (model->plan.own > 0) user_state_rates(model, &at, state->a + model->plan.n);
     struct direction flow = state_flow(state, scratch.dy);
-    force_balance(model, &at, scratch.slots);
     force_balance_along(model, &at, &flow, scratch.slots, scratch.slots_along);
     return flow;
 }

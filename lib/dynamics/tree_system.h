@@ -19,6 +19,9 @@ void tree_system_factor(const struct fbd_model *model, const struct instant *at)
 /* Set work->scale, work->most and work->apart for the rows of the system, given its diagonal. */
 void tree_set_scales(const struct tree *tree, struct tree_work *work);
 
+/* Leave the system without active unknowns, solved. */
+void tree_system_empty(const struct fbd_model *model, struct tree_work *work);
+
 /* Factor it again with another damping. */
 void tree_system_refactor(const struct tree *tree, struct tree_work *work);
 
@@ -41,6 +44,9 @@ void tree_apply_variations(const struct fbd_model *model, const struct instant *
 
 /* Is unknown k active in the modes of the instant? */
 bool tree_takes_part(const struct tree *tree, const struct instant *at, int k);
+
+/* Is no row active, as in free flight? */
+bool tree_rows_are_idle(const struct tree *tree, const struct instant *at);
 
 /* The ratio of the multiplier of the row after row k to that of row k, if the body of row k slips with
  * friction on its surface; else 0. */

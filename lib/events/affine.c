@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "dynamics/contact.h"
 #include "events/enclosure.h"
 #include "numeric/tolerances.h"
 
@@ -72,14 +73,87 @@ static bool find_stick_limit(const struct fbd_state *state, const struct watcher
     return add_along(plan, mode, watcher->end == 0 ? 1 : -1, f);
 }
 
-void affine_find(const struct fbd_state *state, const struct watcher *watcher, struct affine *f)
+/* Add n . p of a point of a link that moves on the ground: any point of a slider, else the origin. */
+static bool add_position(const struct fbd_model *model, int index, struct vec point, struct vec n,
+                         struct affine *f)
+{
+    const struct tree_link *link = &model->tree->links[index];
+    const bool origin = point.x == 0 && point.y == 0;
+    const double along = vec_dot(n, link->e), across = vec_dot(n, vec_perp(link->e));
+    if (link->parent != 0) return false;
+    f->constant += vec_dot(n, link->at);
+    if (link->kind == motion_slide) {
+        f->constant += vec_dot(n, vec_turn(link->tilt, point));
+        return add_term(f, link->coordinate, along);
+    }
+    return (link->kind == motion_particle || link->kind == motion_planar) && origin &&
+           add_term(f, link->coordinate, along) && add_term(f, link->coordinate + 1, across);
+}
+
+/* The gap of a stop, or of a point or a disc at a line of the ground whose normal is `side` k x e. */
+static bool find_gap(const struct fbd_model *model, int index, double side, struct affine *f)
+{
+    const struct meeting *meeting = &model->tree->meetings[index];
+    const struct tree_link *link = &model->tree->links[meeting->shape[0].link];
+    if (meeting->coupling_count > 1) return false;
+    if (meeting->stop != 0) {
+        f->constant = -meeting->stop * meeting->limit;
+        return (link->kind == motion_slide || link->kind == motion_pivot) &&
+               add_term(f, link->coordinate, meeting->stop);
+    }
+    if (meeting->shape[1].kind != contact_line || meeting->shape[1].link != 0) return false;
+    struct touch touch = meeting_touch(meeting, 0);
+    struct vec n = vec_scale(side, vec_perp(touch.e));
+    f->constant = -vec_dot(n, touch.base) - touch.radius;
+    return add_position(model, meeting->shape[0].link, touch.point, n, f);
+}
+
+static void clear(struct affine *f)
 {
     f->constant = f->limit = f->roundings = 0;
     f->count = 0;
     f->piece = 0;
-    f->known = !state_sliding(state) &&
-               ((watcher->kind == watch_slip_stop && find_slip_stop(state, watcher, f)) ||
-                (watcher->kind == watch_stick_limit && find_stick_limit(state, watcher, f)));
+}
+
+bool affine_mark_gap(const struct fbd_model *model, int index, bool *used)
+{
+    struct affine f;
+    clear(&f);
+    if (!find_gap(model, index, 1, &f)) return false;
+    for (int i = 0; used && i < f.count; i++) used[f.terms[i].component] = true;
+    return true;
+}
+
+/* Gaps are functions of the coordinates alone, in all modes. Less than meeting_rounding is added, so that the
+ * shapes are not left deeper than that. */
+static bool find_present_gap(const struct fbd_state *state, const struct watcher *watcher, double deep,
+                             struct affine *f)
+{
+    const struct meeting *meeting = &state->model->tree->meetings[watcher->index];
+    if (!find_gap(state->model, watcher->index, state->tree->couplings[meeting->first_coupling].side[0], f))
+        return false;
+    f->constant += deep + round_off(8, meeting->reach);
+    return true;
+}
+
+void affine_find(const struct watchers *watchers, const struct fbd_state *state,
+                 const struct watcher *watcher, struct affine *f)
+{
+    clear(f);
+    if (watcher->kind == watch_gap)
+        f->known = find_present_gap(state, watcher, watchers->deep ? watchers->deep[watcher->index] : 0, f);
+    else
+        f->known = !state_sliding(state) &&
+                   ((watcher->kind == watch_slip_stop && find_slip_stop(state, watcher, f)) ||
+                    (watcher->kind == watch_stick_limit && find_stick_limit(state, watcher, f)));
+}
+
+struct enclosure affine_over(const struct affine *f, const struct enclosure *y)
+{
+    struct enclosure sum = enclosure_point(f->constant);
+    for (int i = 0; i < f->count; i++)
+        sum = enclosure_add(sum, enclosure_scale(f->terms[i].factor, y[f->terms[i].component]));
+    return sum;
 }
 
 double affine_value(const struct affine *f, const double *y, const double *dy, double *rate)

@@ -2,8 +2,9 @@
  *
  * Event functions that are f = c + sum_k a_k y_k while the modes last.
  *
- * Examples are the speed of a pair on a surface of constant speed, and the distance to the friction limit
- * while it sticks, with constant normal loads and tangential springs and dampers. Where a step is a
+ * Examples are the gap of a disc or a point at a line of the ground, the distance to a stop, the speed of a pair
+ * on a surface of constant speed, and the distance to the friction limit while it sticks, with constant normal
+ * loads and tangential springs and dampers. Where a step is a
  * polynomial, f is one: its bounds are those of one polynomial instead of a formula of intervals, and its
  * zero is found without samples.
  */
@@ -16,6 +17,7 @@
 enum { affine_most_terms = 4 };
 
 struct watcher;
+struct watchers;
 
 struct affine {
     bool known;
@@ -38,7 +40,14 @@ struct affine {
 };
 
 /* Set f to the function of a watcher in the modes of `state`. */
-void affine_find(const struct fbd_state *state, const struct watcher *watcher, struct affine *f);
+void affine_find(const struct watchers *watchers, const struct fbd_state *state,
+                 const struct watcher *watcher, struct affine *f);
+
+/* Is the gap of a contact pair affine in all modes? Flags the components of y that it reads in `used`, or NULL. */
+bool affine_mark_gap(const struct fbd_model *model, int index, bool *used);
+
+/* The ranges of f, for motions within the ranges y. */
+struct enclosure affine_over(const struct affine *f, const struct enclosure *y);
 
 /* f and its rate at a state with the derivative dy. */
 double affine_value(const struct affine *f, const double *y, const double *dy, double *rate);

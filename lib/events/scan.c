@@ -316,9 +316,9 @@ static int look_by_enclosures(struct scan *scan, double from, double *limit)
 {
     for (size_t g = 0; g < scan->group_count; g++) {
         struct root_group *group = &scan->groups[g];
-        bool turn = group->aside == scan->aside && !is_silent(scan, group),
+        bool turn = group->aside == scan->aside && !group->idle && !is_silent(scan, group),
              proved = group->proved && !group->stuck;
-        group->open = turn && proved && !group->idle;
+        group->open = turn && proved;
         leave_to_samples(scan, group, turn && !proved);
     }
     if (!any_open(scan)) return 0;

@@ -221,11 +221,21 @@ static bool is_enclosed(const struct fbd_state *state, const struct watcher *wat
     }
 }
 
-/* A slipping pair has no breakaway, and a sticking pair no end of slip. */
+/* Can the event not happen in the present modes? A slipping pair has no breakaway, and a sticking pair no end of
+ * slip; a contact that is open has no friction, and one that is closed no gap. */
 static bool is_idle(const struct fbd_state *state, const struct watcher *watcher)
 {
-    if (watcher->kind == watch_slip_stop) return state->slip[watcher->index] == stick;
-    return watcher->kind == watch_stick_limit && state->slip[watcher->index] != stick;
+    const struct instant at = state_instant(state);
+    switch (watcher->kind) {
+    case watch_slip_stop:
+        return state->slip[watcher->index] == stick || mode_is_off_surface(state, watcher->index);
+    case watch_stick_limit:
+        return state->slip[watcher->index] != stick || mode_is_off_surface(state, watcher->index);
+    case watch_lift: return state->slip[watcher->index] != stick;
+    case watch_gap: return meeting_is_closed(state->model, &at, watcher->index);
+    case watch_edge: return !coupling_is_closed(state->model, &at, watcher->index);
+    default: return false;
+    }
 }
 
 static void follow_affine(struct watchers *watchers, const struct fbd_state *state)
@@ -236,7 +246,7 @@ static void follow_affine(struct watchers *watchers, const struct fbd_state *sta
     for (size_t g = 0; g < set->group_count; g++) {
         const struct root_group *group = &set->groups[g];
         for (size_t i = group->first; !group->idle && i < group->first + group->count; i++) {
-            affine_find(state, &set->watchers[i], &watchers->affine[i]);
+            affine_find(watchers, state, &set->watchers[i], &watchers->affine[i]);
             watchers->any_affine |= watchers->affine[i].known;
             watchers->all_affine &= watchers->affine[i].known;
         }

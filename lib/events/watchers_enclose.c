@@ -169,8 +169,8 @@ bool watchers_can_enclose(const struct fbd_model *model, const struct watcher *w
     if (watcher->kind == watch_kink) return !plan->kinks[watcher->index].reacts;
     if (watcher->kind == watch_user) return !plan->watches[watcher->index].reacts;
     if (watcher->kind == watch_share) return true;
-    if (watcher->kind == watch_lift || watcher->kind == watch_gap || watcher->kind == watch_edge)
-        return false;
+    if (watcher->kind == watch_gap) return affine_mark_gap(model, watcher->index, NULL);
+    if (watcher->kind == watch_lift || watcher->kind == watch_edge) return false;
     if (watcher->kind == watch_contact) return has_equation(model, plan->contacts[watcher->index].body);
     const struct mode *mode = &plan->modes[watcher->index];
     if (mode->coupling >= 0) return false;
@@ -238,8 +238,8 @@ static struct enclosure enclose_one(const struct watchers *watchers, const struc
     case watch_slip_stop:
         return input->state->slip[index] == stick ? enclosure_point(HUGE_VAL) : slip_stop(input, index);
     case watch_share: return enclose_share(input, watcher);
+    case watch_gap: return affine_over(&watchers->affine[watcher - watchers->moving.watchers], input->y);
     case watch_lift:
-    case watch_gap:
     case watch_edge:
     case watch_kink:
     case watch_stick_limit:
@@ -343,8 +343,8 @@ void watchers_mark_used(const struct fbd_model *model, const struct watcher_set 
         case watch_slip_stop:
         case watch_stick_limit:
         case watch_normal_turns: mark_friction(model, watcher, used); break;
+        case watch_gap: affine_mark_gap(model, watcher->index, used); break;
         case watch_lift:
-        case watch_gap:
         case watch_edge:
         case watch_one_sided: break;
         case watch_share: mark_share(model, &plan->kinks[watcher->index].formula, used); break;

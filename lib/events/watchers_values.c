@@ -70,15 +70,6 @@ static double one_sided_value(const struct watchers *watchers, const struct watc
     return now.force + now.slack;
 }
 
-/* Has the rolling or touching body left its surface? Then there is no friction. */
-static bool is_off_its_surface(const struct fbd_state *state, const struct mode *mode)
-{
-    if (mode->coupling < 0) return false;
-    if (state->tree->couplings[mode->coupling].gone) return true;
-    int surface = state->model->tree->couplings[mode->coupling].surface;
-    return surface >= 0 && state->slip[surface] != stick;
-}
-
 /* The normal force while the contact is closed. */
 static double lift_value(const struct watcher *watcher, const struct view *view, double *rate)
 {
@@ -126,7 +117,7 @@ static double friction_value(const struct watchers *watchers, const struct watch
     const struct mode *mode = &model->plan.modes[watcher->index];
     int slip = view->at.slip[watcher->index];
     *rate = 0;
-    if (is_off_its_surface(view->state, mode)) return HUGE_VAL;
+    if (mode_is_off_surface(view->state, watcher->index)) return HUGE_VAL;
     if (watcher->kind == watch_slip_stop) {
         if (slip == stick || friction_is_idle(model, watcher->index, &view->at, &view->flow)) return HUGE_VAL;
         if (mode->coupling >= 0) {
@@ -220,7 +211,7 @@ static enum needs needs_of(const struct watcher *watcher, const struct fbd_state
     case watch_slip_stop:
     case watch_stick_limit:
     case watch_normal_turns:
-        if (is_off_its_surface(state, mode_of(state, watcher->index))) return needs_motion;
+        if (mode_is_off_surface(state, watcher->index)) return needs_motion;
         if (watcher->kind == watch_slip_stop) return needs_flow;
         if (watcher->kind == watch_stick_limit && state->slip[watcher->index] != stick) return needs_flow;
         break;

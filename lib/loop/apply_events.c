@@ -272,6 +272,14 @@ void run_apply_touched(struct run *run, bool at_event)
     }
 }
 
+static bool any_switch(const struct watcher_set *set, const bool *crossed)
+{
+    bool any = false;
+    for (size_t i = 0; crossed && i < set->count; i++)
+        any |= crossed[i] && set->watchers[i].kind == watch_kink;
+    return any;
+}
+
 /* Fail at a switch that was just crossed and whose new branch leads back across it, by more than rounding
  * within a step: the forces on both sides point to the switch. The motion would be a Filippov sliding mode,
  * which no branch describes. */
@@ -280,7 +288,7 @@ static void refuse_sliding(struct run *run, const bool *moving)
     const double roundings = 1e3; /* at a turning point the rate may have either sign */
     const struct watcher_set *set = &run->watchers.moving;
     size_t modes = run->model->plan.mode_count * sizeof *run->state->slip;
-    if (!moving || run->end.outcome != FBD_GOING) return;
+    if (!moving || run->end.outcome != FBD_GOING || !any_switch(set, moving)) return;
     if (memcmp(run->state->slip, run->during->slip, modes) != 0) return; /* other forces act now */
     double *values = run->work.values, *rate = values + set->count;
     watchers_evaluate(&run->watchers, set, run->state, state_moment(run->state), run->state->y, values, rate);
@@ -420,11 +428,9 @@ static void apply_once(struct run *run, const bool *timed, const bool *moving)
     const struct plan *plan = &run->model->plan;
     const struct watcher_set *sets[] = {&run->watchers.timed, &run->watchers.moving};
     const bool *crossed[] = {timed, moving};
-    bool crossing = false;
+    const bool crossing =
+        any_switch(&run->watchers.timed, timed) || any_switch(&run->watchers.moving, moving);
     memset(run->decided.branches, 0, ((size_t)plan->branches + 2 * plan->mode_count) * sizeof(bool));
-    for (int s = 0; s < 2; s++)
-        for (size_t i = 0; crossed[s] && i < sets[s]->count; i++)
-            crossing |= crossed[s][i] && sets[s]->watchers[i].kind == watch_kink;
     contacts_begin_events(run);
     rest_held(run);
     size_t first = run->log.count;

@@ -342,7 +342,8 @@ double contacts_reach(const struct run *run, int index)
 /* Find the touching features of all pairs, and evaluate their rows. */
 static void find_touching(struct run *run)
 {
-    impulse_look(run->state);
+    const struct instant at = state_instant(run->state);
+    tree_move(run->model, &at);
     for (int i = 0; i < tree_of(run)->meeting_count; i++)
         contacts_find_touching(run, i, contacts_reach(run, i));
     impulse_look(run->state);

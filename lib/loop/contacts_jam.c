@@ -166,16 +166,16 @@ bool run_jam(struct run *run)
     return true;
 }
 
-/* The contact with friction and the largest normal force; -1 without one. */
-static int pressed_most(const struct run *run)
+/* The contact that slips with friction and has the largest normal force; -1 without one. */
+static int pressed_most(const struct run *run, const struct fbd_state *state)
 {
     const struct tree *tree = tree_of(run);
-    const struct instant at = state_instant(run->state);
+    const struct instant at = state_instant(state);
     double most = -1;
     int found = -1;
     for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
-        double N = fabs(run->state->tree->rows[coupling->first_row].lambda);
+        double N = fabs(state->tree->rows[coupling->first_row].lambda);
         if (coupling->kind != constraint_contact ||
             tree_rubbing_share(run->model, &at, coupling->first_row) == 0)
             continue;
@@ -205,6 +205,8 @@ static bool has_meetings(const struct run *run)
 void run_note_sign(struct run *run)
 {
     if (!has_meetings(run)) return;
+    run->contacts.turned = false;
+    if (pressed_most(run, run->during) < 0) return;
     state_evaluate_unshared(run->during);
     run->contacts.turned = has_turned(run->during);
 }
@@ -212,10 +214,10 @@ void run_note_sign(struct run *run)
 void run_check_jam(struct run *run, bool evaluated)
 {
     const struct fbd_model *model = run->model;
-    if (!has_meetings(run) || run->end.outcome != FBD_GOING) return;
+    if (!has_meetings(run) || run->end.outcome != FBD_GOING || pressed_most(run, run->state) < 0) return;
     if (!evaluated) state_evaluate_unshared(run->state);
-    int worst = has_turned(run->state) != run->contacts.turned ? pressed_most(run) : -1;
-    if (worst < 0) return;
+    if (has_turned(run->state) == run->contacts.turned) return;
+    int worst = pressed_most(run, run->state);
     const struct coupling *coupling = &model->tree->couplings[worst];
     run_fail(run, FBD_FAILED,
              "at t = %.9g the normal force of `%s` on `%s` has become infinite within a step: the friction "

@@ -237,10 +237,12 @@ static bool projected_in(struct run *run)
         if (work->asleep[i]) continue;
         double deep = meeting_depth(run->model, &at, i);
         if (deep <= work->deep[i] + meeting_rounding(run->model, run->state->tree, i)) continue;
-        if (parts(run, &at, i))
-            work->deep[i] = deep;
-        else
+        if (!parts(run, &at, i)) {
             in = true;
+            continue;
+        }
+        work->deep[i] = deep;
+        run->step.restart |= affine_mark_gap(run->model, i, NULL); /* its constant term is another */
     }
     return in;
 }

@@ -407,6 +407,8 @@ bool contacts_solve_impact(struct run *run, int count)
 
 void contacts_hold_speeds(struct run *run, int count)
 {
+    const struct instant at = state_instant(run->state);
+    if (tree_rows_are_idle(tree_of(run), &at)) return;
     state_project_velocity(run->state, false);
     drop_rounding(run, count);
     stop_rounding(run, count);

@@ -282,7 +282,8 @@ static bool fail_beyond_numbers(struct run *run, double t)
     return false;
 }
 
-static void accept(struct run *run, struct time_dd t)
+/* Returns whether the projection has moved the end of the step. */
+static bool accept(struct run *run, struct time_dd t)
 {
     size_t size = plan_size(&run->model->plan);
     double *most = run->recent.anchor + size, probe = 0; /* zero unless a coordinate is not finite */
@@ -290,15 +291,17 @@ static void accept(struct run *run, struct time_dd t)
         most[i] = larger(most[i], fabs(run->state->y[i]));
         probe += 0 * run->work.y[i];
     }
-    if (probe != 0 && fail_beyond_numbers(run, t.t)) return;
+    if (probe != 0 && fail_beyond_numbers(run, t.t)) return false;
     state_set_moment(run->state, t);
     memcpy(run->state->y, run->work.y, size * sizeof *run->work.y);
-    if (run->plain) return;
+    if (run->plain) return false;
     modes_hold(run->state);
     project_step(run);
     run_check_overlap(run);
     run->step.restart |= projection_has_failed(run);
+    bool moved = run->projected && memcmp(run->work.y, run->state->y, size * sizeof *run->work.y) != 0;
     memcpy(run->work.y, run->state->y, size * sizeof *run->work.y);
+    return moved;
 }
 
 /* Limit the next step near poles of the forces; false at a pole. */
@@ -402,10 +405,10 @@ static bool find_events(struct run *run, struct turn *turn)
 /* Set the state to the end of the step, projected onto the couplings. */
 static bool accept_step(struct run *run, const struct turn *turn)
 {
-    accept(run, turn->t);
+    bool moved = accept(run, turn->t);
     run_check_progress(run);
     if (run->end.outcome != FBD_GOING) return false;
-    if (run->projected) counted_system_rhs(&run->system, turn->t.t, run->work.y, run->work.f);
+    if (moved) counted_system_rhs(&run->system, turn->t.t, run->work.y, run->work.f);
     return true;
 }
 

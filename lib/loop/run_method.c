@@ -84,10 +84,11 @@ void run_limit_method(struct run *run)
 }
 
 /* An exact step may be of any length. But the farther contacts are searched, the more shapes may meet there, and mostly in
- * vain, so steps without a closed contact grow. */
+ * vain, so steps without a closed contact grow; not by a power of two, as bisections of a step would then end at the next
+ * of equal bounces. */
 void run_limit_flight(struct run *run)
 {
-    const double growth = 4, least = 1.0 / 64;
+    const double growth = 3, least = 1.0 / 64;
     double length = run->state->t - run->step.from;
     run->step.flight = fmax(growth * length, least * run->step.longest);
 }

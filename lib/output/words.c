@@ -134,28 +134,29 @@ static void sliding_detail(const struct fbd_model *model, const struct run_event
         format_into(detail, size, "%s slides on its switch, with %+.6g %s", name, event->force,
                     is_moment(model, event) ? moment_unit(model) : force_unit(model));
     else
-        snprintf(detail, size, "%s slides on its switch", name);
+        format_into(detail, size, "%s slides on its switch", name);
 }
 
 static void several_detail(const struct run_event *event, const char *name, const char *unit, char *detail,
                            size_t size)
 {
     if (event->impact.several)
-        snprintf(detail, size,
-                 "%s: several velocities agree with the laws of the impact, whose impulses are not "
-                 "determined by "
-                 "rigid bodies, and one of them is taken",
-                 name);
+        format_into(detail, size,
+                    "%s: several velocities agree with the laws of the impact, whose impulses are not "
+                    "determined by "
+                    "rigid bodies, and one of them is taken",
+                    name);
     else if (event->force > 1) /* friction that increases its own normal force */
         format_into(detail, size,
                     "%s: several motions agree with the forces, as in Painleve's paradox, and one of them is "
                     "taken; each %s of its normal force causes %.4g %s more of it",
                     name, unit, event->force, unit);
     else
-        snprintf(detail, size,
-                 "%s: several motions agree with the law of friction, and one of them is taken; which of the "
-                 "bodies slip and which stick is not determined",
-                 name);
+        format_into(
+            detail, size,
+            "%s: several motions agree with the law of friction, and one of them is taken; which of the "
+            "bodies slip and which stick is not determined",
+            name);
 }
 
 void event_detail(const struct fbd_model *model, const struct run_event *event, char *detail, size_t size)
@@ -174,11 +175,11 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
                     name, event->force, unit, event->limit, unit);
         return;
     case FBD_EVENT_CONTACT_LOST: contact_lost_detail(event, name, unit, detail, size); return;
-    case FBD_EVENT_USER: snprintf(detail, size, "%s", name); return;
-    case FBD_EVENT_ROPE_SLACK: snprintf(detail, size, "%s goes slack", name); return;
+    case FBD_EVENT_USER: format_into(detail, size, "%s", name); return;
+    case FBD_EVENT_ROPE_SLACK: format_into(detail, size, "%s goes slack", name); return;
     case FBD_EVENT_ROPE_TAUT: rope_taut_detail(model, event, name, detail, size); return;
     case FBD_EVENT_IMPACT: impact_detail(model, event, name, detail, size); return;
-    case FBD_EVENT_CONTACT: snprintf(detail, size, "%s closes", name); return;
+    case FBD_EVENT_CONTACT: format_into(detail, size, "%s closes", name); return;
     case FBD_EVENT_SEVERAL: several_detail(event, name, unit, detail, size); return;
     case FBD_EVENT_JAM: jam_detail(model, event, name, detail, size); return;
     case FBD_EVENT_REST:
@@ -187,7 +188,7 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
         return;
     case FBD_EVENT_LIFT_OFF:
         if (event->load >= 0 && model->loads[event->load].source->kind == load_contact)
-            snprintf(detail, size, "%s opens", name);
+            format_into(detail, size, "%s opens", name);
         else
             snprintf(detail, size, "%.*s leaves its line", (int)strcspn(name, "."), name);
         return;
@@ -196,13 +197,13 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
                     (int)strcspn(name, "."), name, event->force, energy_unit(model));
         return;
     case FBD_EVENT_SWITCH:
-        snprintf(detail, size, "%s passes to another branch", name[0] ? name : "an event");
+        format_into(detail, size, "%s passes to another branch", name[0] ? name : "an event");
         return;
     case FBD_EVENT_SLIDING: sliding_detail(model, event, name, detail, size); return;
-    case FBD_EVENT_SLIDING_ENDS: snprintf(detail, size, "%s leaves its switch", name); return;
-    case FBD_EVENT_TRACK_END: snprintf(detail, size, "an end of its track"); return;
+    case FBD_EVENT_SLIDING_ENDS: format_into(detail, size, "%s leaves its switch", name); return;
+    case FBD_EVENT_TRACK_END: format_into(detail, size, "an end of its track"); return;
     case FBD_EVENT_COUPLING_ENDS:
-        snprintf(detail, size, "%s ends: %s", name, model->plan.watches[event->watch].source->text);
+        format_into(detail, size, "%s ends: %s", name, model->plan.watches[event->watch].source->text);
         return;
     case FBD_EVENT_COUPLING_BEGINS:
         format_into(detail, size, "%s begins: %s; the impact takes %.6g %s", name,
