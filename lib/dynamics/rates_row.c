@@ -42,7 +42,8 @@ static struct instant smooth_instant(const struct fbd_state *state, double t, co
 }
 
 /* Add drag and formulas; out of line, so that the others save no registers. */
-static __attribute__((noinline)) double add_others(const struct row *row, double t, const double *y, double sum)
+static __attribute__((noinline)) double add_others(const struct row *row, double t, const double *y,
+                                                   double sum)
 {
     if (row->square != 0) sum -= row->square * fabs(y[row->v]) * y[row->v];
     if (row->part) return sum + row->scale * part_value(row->part, row->u < 0 ? t : y[row->u]);

@@ -22,10 +22,6 @@ struct formula builder_formula(struct builder *builder, const struct value *valu
 struct formula builder_rate(struct builder *builder, const struct value *value, int own);
 
 struct formula formula_constant(double value);
-static inline bool formula_given(const struct formula *formula)
-{
-    return formula->expr != NULL || formula->constant != 0;
-}
 
 /* Add the modes of couplings and of prescribed motion (plan_couplings.c). */
 void plan_couplings(struct builder *builder);
