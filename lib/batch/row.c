@@ -163,8 +163,7 @@ static const char *status_of(fbd_outcome outcome)
 static const char *next_happening(const struct observed *o, size_t *word, size_t *event, int *body)
 {
     const struct word_log *words = o->words;
-    while (*word < words->count && words->notes[*word].t > 0) (*word)++; /* of an event */
-    if (*word < words->count) {
+    if (*word < words->at_start) {
         *body = words->notes[*word].body;
         return row_word_name(words->notes[(*word)++].word);
     }
@@ -235,6 +234,7 @@ static bool carry(struct row_maker *maker, struct ensemble *run, struct ledger *
             run->outcome = FBD_FAILED;
         if (extremes && !extremes_step(maker->extremes, extremes, run, probe)) run->outcome = FBD_FAILED;
     }
+    if (words && run->refused && !word_log_step(&maker->words, run, probe)) run->outcome = FBD_OUT_OF_MEMORY;
     if (ledger && !ledger_at(ledger, run, ledger->work)) run->outcome = FBD_FAILED;
     return true;
 }

@@ -10,16 +10,11 @@
 
 #include "study/find.h"
 
-static bool is_equation(const struct fbd_find *find)
-{
-    return find->kind == find_equation || find->kind == find_limit;
-}
-
 /* The width of the last bracket, a share of the range: for outcomes above the tolerances by which modes are
  * decided, some 1e-12 of the forces; or the rounding of the parameter. */
 static double finest(const struct fbd_find *find)
 {
-    const double share = is_equation(find) ? 1e-12 : 1e-10;
+    const double share = find_is_equation(find) ? 1e-12 : 1e-10;
     return fmax(share * (find->to - find->from), 4 * DBL_EPSILON * fmax(fabs(find->from), fabs(find->to)));
 }
 
@@ -161,19 +156,21 @@ static const char *difference_text(struct fbd_find *find, const struct trial *tr
     return kept;
 }
 
-/* The error of a root: the difference of a run of smaller tolerance there, divided by the slope. */
+/* The error of a root: the difference of a run of smaller tolerance there, divided by the slope. Central
+ * differences: beside a maximum just above zero the slope changes within little. */
 static bool root_error(struct fbd_find *find, double p, double width, const struct trial *a,
                        const struct trial *b, double *error)
 {
-    const double share = 1e-3;
-    double h = share * (b->p - a->p);
-    struct trial tight, beside;
+    const double share = 1e-3, h = share * (b->p - a->p);
+    struct trial tight, above, below;
     *error = width;
     if (find->plan->statics) return true;
-    if (p + h > find->to || p + h < find->from) h = -h;
-    if (!find_try(find, p, true, &tight) || !find_try(find, p + h, true, &beside)) return false;
-    const double slope = (beside.f - tight.f) / h;
-    *error = tight.known && beside.known && slope != 0 ? width + fabs(tight.f / slope) : scan_step(find);
+    if (!find_try(find, p, true, &tight) || !find_try(find, fmin(p + h, find->to), true, &above) ||
+        !find_try(find, fmax(p - h, find->from), true, &below))
+        return false;
+    const double slope = (above.f - below.f) / (above.p - below.p);
+    const bool known = tight.known && isfinite(slope) && slope != 0;
+    *error = known ? width + fabs(tight.f / slope) : scan_step(find);
     return true;
 }
 
@@ -296,7 +293,7 @@ static bool solve_outcome(struct fbd_find *find, const struct trial *a, const st
 bool find_solve(struct fbd_find *find, const struct trial *a, const struct trial *b)
 {
     if (!a->known || !b->known || !find_differs(find, a, b)) return true;
-    if (!is_equation(find)) return solve_outcome(find, a, b);
+    if (!find_is_equation(find)) return solve_outcome(find, a, b);
     if (find->kind == find_equation) return solve_equation(find, a, b);
     fbd_solution solution = {.kind = FBD_SOLUTION_ROOT,
                              .below = difference_text(find, a),
@@ -305,15 +302,21 @@ bool find_solve(struct fbd_find *find, const struct trial *a, const struct trial
     return refine(find, a, b, find->limit, &solution, &found) && (!found || add_solution(find, &solution));
 }
 
+bool find_add_root(struct fbd_find *find, const struct trial *trial, double error)
+{
+    const fbd_solution solution = {.kind = FBD_SOLUTION_ROOT,
+                                   .value = trial->p,
+                                   .error = error,
+                                   .below = difference_text(find, trial),
+                                   .above = difference_text(find, trial)};
+    return add_solution(find, &solution);
+}
+
 bool find_take_exact(struct fbd_find *find, const struct trial *trial)
 {
-    if (!is_equation(find) || !trial->known || trial->f != 0) return true;
-    const double step = trial->p < find->to ? scan_step(find) : -scan_step(find);
-    const struct trial beside = {.p = trial->p + step};
-    fbd_solution solution = {.kind = FBD_SOLUTION_ROOT,
-                             .value = trial->p,
-                             .below = difference_text(find, trial),
-                             .above = difference_text(find, trial)};
-    return root_error(find, trial->p, finest(find), trial, &beside, &solution.error) &&
-           add_solution(find, &solution);
+    if (!find_is_equation(find) || !trial->known || trial->f != 0) return true;
+    const struct trial beside = {.p = trial->p + scan_step(find)};
+    double error;
+    return root_error(find, trial->p, finest(find), trial, &beside, &error) &&
+           find_add_root(find, trial, error);
 }

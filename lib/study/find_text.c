@@ -135,7 +135,11 @@ char *fbd_find_text(const fbd_find *find)
     write_gaps(&text, find);
     text_printf(&text, "\n%zu runs, %zu of them at distances of ", found.runs, found.scan);
     put_value(&text, find, found.step);
-    text_add(&text, ": of two values closer than that both may be missed\n");
+    text_add(&text, found.linear ? ": the difference is linear there, and there is no other value\n"
+                    : find_is_equation(find)
+                        ? ": of two values closer than that both may be missed if the difference has "
+                          "several extrema between them\n"
+                        : ": of two values closer than that both may be missed\n");
     if (text.failed) text_free(&text);
     return text.data;
 }
@@ -174,7 +178,8 @@ char *fbd_find_json(const fbd_find *find)
     text_json_words(&text, "condition", found.condition, ",\n  ");
     text_json_member(&text, "from", found.from, ", ");
     text_json_member(&text, "to", found.to, ", ");
-    text_json_member(&text, "step", found.step, ",\n");
+    text_json_member(&text, "step", found.step, ", ");
+    text_json_flag(&text, "linear", found.linear, ",\n");
     text_printf(&text, "  \"scan\": %zu, \"runs\": %zu, \"failed\": %zu,\n  \"solutions\": [", found.scan,
                 found.runs, found.failed);
     for (size_t i = 0; i < find->solution_count; i++) {
