@@ -167,6 +167,10 @@ FBD_API fbd_fit_quality fbd_fit_summary(const fbd_fit *fit);
 FBD_API char *fbd_fit_text(const fbd_fit *fit);
 FBD_API char *fbd_fit_json(const fbd_fit *fit);
 
+/* The data and the fitted run as a script for gnuplot that contains them, one plot for each quantity. `file` as in
+ * fbd_result_gnuplot (fbd_export.h); NULL when memory is out. */
+FBD_API char *fbd_fit_gnuplot(const fbd_fit *fit, const char *file);
+
 #ifdef __cplusplus
 }
 #endif

@@ -53,6 +53,7 @@ check 'a quantity that is none is 2' exits 2 run --find 'phi: block.q = 1 m' "$b
 check 'and named' says '^--find: error: a run has no quantity `block\.q`.*\[unknown-output\]' err
 check 'a wrong unit is 2' exits 2 run --find 'phi: block.x = 1 s' "$block"
 check '--csv does not go with it' exits 2 run --find 'phi: block.x = 1 m' --csv a.csv "$block"
+check 'a plot neither' exits 2 run --find 'phi: block.x = 1 m' --gnuplot a.gp "$block"
 check '--linearize neither' exits 2 run --find 'phi: block.x = 1 m' --linearize "$block"
 check '--runs goes with --find' exits 2 run --runs 5 "$block"
 check 'and is a number' exits 2 run --find 'phi: block.x = 1 m' --runs 2 "$block"
