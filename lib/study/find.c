@@ -40,7 +40,8 @@ static void note_scan(struct fbd_find *find, size_t i, const struct trial *last,
     find->most = i == 0 ? trial->f : fmax(find->most, trial->f);
     if (i == 1) find->slope = (trial->f - last->f) / (trial->p - last->p);
     const double change = i > 0 ? trial->f - last->f - find->slope * (trial->p - last->p) : 0;
-    find->linear = (i == 0 || find->linear) && trial->known &&
+    const bool equal = i > 0 && trial->f == 0 && last->f == 0;
+    find->linear = (i == 0 || find->linear) && trial->known && !equal &&
                    fabs(change) <= rounding * fmax(fabs(find->least), fabs(find->most));
 }
 
@@ -55,11 +56,11 @@ static bool scan(struct fbd_find *find)
         if (i == 1 && !find_solve_end(find, &last, &trial)) return false;
         if (i > 1 && !find_solve_pair(find, &before, &last, &trial)) return false;
         if (i > 0 && !find_solve(find, &last, &trial)) return false;
-        if (!find_take_exact(find, &trial)) return false;
+        if (i > 0 && !find_take_zero(find, i > 1 ? &before : NULL, &last, &trial)) return false;
         before = last;
         last = trial;
     }
-    return find_solve_end(find, &last, &before);
+    return find_take_zero(find, &before, &last, NULL) && find_solve_end(find, &last, &before);
 }
 
 static bool search(struct fbd_find *find, const char *question)

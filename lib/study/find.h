@@ -70,9 +70,11 @@ struct fbd_find {
     fbd_find_gap *gaps;
     size_t gap_count, gap_room;
     const char *throughout; /* the story of the first trial, "" without one */
-    double least, most;     /* of the trials of the scan: left side minus right side, or the margin */
-    double slope;           /* of the first two */
-    bool linear;            /* those of all of them are linear in the parameter */
+    const char *
+        alone[2]; /* the story at an end of the range, where all other values have another outcome; or NULL */
+    double least, most; /* of the trials of the scan: left side minus right side, or the margin */
+    double slope;       /* of the first two */
+    bool linear;        /* those of all of them are linear in the parameter */
     size_t scan, runs, failed;
     bool stopped;
 };
@@ -110,8 +112,15 @@ bool find_solve_end(struct fbd_find *find, const struct trial *end, const struct
 /* Add a trial as a solution of an equation; false when memory is out. */
 bool find_add_root(struct fbd_find *find, const struct trial *trial, double error);
 
-/* Add a trial of the scan at which an equation holds exactly. Returns false as find_try. */
-bool find_take_exact(struct fbd_find *find, const struct trial *trial);
+/* Add a trial of the scan at which an equation holds exactly; of several neighbours the ends of their interval. A
+ * neighbour is NULL at the end of the range. Returns false as find_try (find_pair.c). */
+bool find_take_zero(struct fbd_find *find, const struct trial *before, const struct trial *trial,
+                    const struct trial *after);
+
+/* The width of the last bracket, and the error of a root at p between a and b, which is at least that. */
+double find_finest(const struct fbd_find *find);
+bool find_root_error(struct fbd_find *find, double p, double width, const struct trial *a,
+                     const struct trial *b, double *error);
 
 /* Add a trial without a value to the list; false when memory is out. */
 bool find_add_gap(struct fbd_find *find, const struct trial *trial);

@@ -4,7 +4,8 @@
  *
  * Where |f| at a trial is less than at both of its neighbours and f has one sign at all three, f may have two roots
  * between them: |f| is minimized there (Brent's method, GSL). A first value of the other sign separates the roots. A
- * minimum of zero, to the accuracy of a run, is a double root.
+ * minimum of zero, to the accuracy of a run, is a double root. Where neighbours are zero, as while a body sticks, the
+ * interval between them is a solution, which is given by its ends.
  */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_min.h>
@@ -77,4 +78,43 @@ bool find_solve_end(struct fbd_find *find, const struct trial *end, const struct
     if (!find_try(find, end->p + share * (inner->p - end->p), false, &beside)) return false;
     return end->p < inner->p ? find_solve_pair(find, end, &beside, inner)
                              : find_solve_pair(find, inner, &beside, end);
+}
+
+/* ---- intervals in which an equation holds */
+
+static bool is_zero(const struct trial *trial)
+{
+    return trial && trial->known && trial->f == 0;
+}
+
+/* The end of the interval between a zero and a trial that is none; without one, the end of the range. */
+static bool add_end(struct fbd_find *find, struct trial zero, const struct trial *other)
+{
+    double beyond = other ? other->p : zero.p;
+    while (fabs(beyond - zero.p) > find_finest(find)) {
+        struct trial middle;
+        if (!find_try(find, zero.p + (beyond - zero.p) / 2, false, &middle)) return false;
+        if (is_zero(&middle))
+            zero = middle;
+        else
+            beyond = middle.p;
+    }
+    return find_add_root(find, &zero, find_finest(find));
+}
+
+bool find_take_zero(struct fbd_find *find, const struct trial *before, const struct trial *trial,
+                    const struct trial *after)
+{
+    double error;
+    if (!find_is_equation(find) || !is_zero(trial)) return true;
+    if (is_zero(before)) return is_zero(after) || add_end(find, *trial, after);
+    if (is_zero(after)) {
+        if (!add_end(find, *trial, before)) return false;
+        find->solutions[find->solution_count - 1].above = "0 up to the next value";
+        return true;
+    }
+    const double step = (find->to - find->from) / (double)(find->scan - 1);
+    const struct trial beside = {.p = trial->p + step};
+    return find_root_error(find, trial->p, find_finest(find), trial, &beside, &error) &&
+           find_add_root(find, trial, error);
 }

@@ -12,7 +12,7 @@
 
 /* The width of the last bracket, a share of the range: for outcomes above the tolerances by which modes are
  * decided, some 1e-12 of the forces; or the rounding of the parameter. */
-static double finest(const struct fbd_find *find)
+double find_finest(const struct fbd_find *find)
 {
     const double share = find_is_equation(find) ? 1e-12 : 1e-10;
     return fmax(share * (find->to - find->from), 4 * DBL_EPSILON * fmax(fabs(find->from), fabs(find->to)));
@@ -43,7 +43,7 @@ static bool add_solution(struct fbd_find *find, const fbd_solution *solution)
  * noted, and ends it with *lost. */
 static bool bisect(struct fbd_find *find, struct trial *low, struct trial *high, bool *lost)
 {
-    while (high->p - low->p > finest(find)) {
+    while (high->p - low->p > find_finest(find)) {
         const double middle = low->p + (high->p - low->p) / 2;
         struct trial trial;
         if (!find_try(find, middle, false, &trial)) return false;
@@ -81,13 +81,21 @@ static bool widen(struct fbd_find *find, const struct trial *low, double p, doub
     return true;
 }
 
+/* Does an end of the range alone have its outcome? Without friction nothing slips, in the sense of the words. */
+static bool is_end_alone(struct fbd_find *find, const struct trial *low, const struct trial *high)
+{
+    if (low->p == find->from) find->alone[0] = low->story;
+    if (high->p == find->to) find->alone[1] = high->story;
+    return low->p == find->from || high->p == find->to;
+}
+
 /* Move `high` beyond further changes that are as near as the last bracket is wide: they are one. */
 static bool pass_neighbours(struct fbd_find *find, const struct trial *b, struct trial *high)
 {
     enum { most_neighbours = 16 };
     for (int i = 0; i < most_neighbours && find_differs(find, high, b); i++) {
         struct trial next;
-        const double p = high->p + 2 * finest(find);
+        const double p = high->p + 2 * find_finest(find);
         if (p >= b->p) return true;
         if (!find_try(find, p, false, &next)) return false;
         if (!next.known || !find_differs(find, high, &next)) return true;
@@ -132,7 +140,7 @@ static bool brent(struct search *search, double from, double to, double *low, do
     gsl_function function = {difference, search};
     gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
     int status = solver ? gsl_root_fsolver_set(solver, &function, from, to) : GSL_ENOMEM;
-    const double width = finest(search->find);
+    const double width = find_finest(search->find);
     for (int i = 0; status == GSL_SUCCESS && i < most_iterations; i++) {
         status = gsl_root_fsolver_iterate(solver);
         *low = gsl_root_fsolver_x_lower(solver);
@@ -158,8 +166,8 @@ static const char *difference_text(struct fbd_find *find, const struct trial *tr
 
 /* The error of a root: the difference of a run of smaller tolerance there, divided by the slope. Central
  * differences: beside a maximum just above zero the slope changes within little. */
-static bool root_error(struct fbd_find *find, double p, double width, const struct trial *a,
-                       const struct trial *b, double *error)
+bool find_root_error(struct fbd_find *find, double p, double width, const struct trial *a,
+                     const struct trial *b, double *error)
 {
     const double share = 1e-3, h = share * (b->p - a->p);
     struct trial tight, above, below;
@@ -191,8 +199,8 @@ static bool solve_equation(struct fbd_find *find, const struct trial *a, const s
                              .below = difference_text(find, jump ? &below : a),
                              .above = difference_text(find, jump ? &above : b)};
     if (jump)
-        solution.error = fmax(high - low, finest(find));
-    else if (!root_error(find, root, fmax(high - low, finest(find)), a, b, &solution.error))
+        solution.error = fmax(high - low, find_finest(find));
+    else if (!find_root_error(find, root, fmax(high - low, find_finest(find)), a, b, &solution.error))
         return false;
     return add_solution(find, &solution);
 }
@@ -215,7 +223,7 @@ static bool refine(struct fbd_find *find, const struct trial *a, const struct tr
     const double f0 = ends[0].f, f1 = ends[1].f, size = fmax(fabs(f0), fabs(f1));
     if (made && find_differs(find, &ends[0], &ends[1]) && isfinite(f0) && isfinite(f1)) {
         solution->value = a->p + (b->p - a->p) * (f0 / (f0 - f1));
-        solution->error = finest(find);
+        solution->error = find_finest(find);
         solution->closed_form = fabs(middle.f - (f0 + f1) / 2) <= rounding * size;
         *found = true;
     }
@@ -223,7 +231,7 @@ static bool refine(struct fbd_find *find, const struct trial *a, const struct tr
         struct search search = {.find = find};
         double low = a->p, high = b->p;
         *found = brent(&search, a->p, b->p, &low, &high, &solution->value);
-        solution->error = fmax(high - low, finest(find));
+        solution->error = fmax(high - low, find_finest(find));
         made = !search.failed;
     }
     find->kind = kind;
@@ -267,6 +275,10 @@ static bool solve_outcome(struct fbd_find *find, const struct trial *a, const st
         const struct trial first = low;
         if (!bisect(find, &low, &high, &lost)) return false;
         if (lost) return true;
+        if (is_end_alone(find, &low, &high)) {
+            low = high;
+            continue;
+        }
         if (!pass_neighbours(find, b, &high)) return false;
         fbd_solution solution = {.kind = FBD_SOLUTION_CHANGE,
                                  .value = (low.p + high.p) / 2,
@@ -310,13 +322,4 @@ bool find_add_root(struct fbd_find *find, const struct trial *trial, double erro
                                    .below = difference_text(find, trial),
                                    .above = difference_text(find, trial)};
     return add_solution(find, &solution);
-}
-
-bool find_take_exact(struct fbd_find *find, const struct trial *trial)
-{
-    if (!find_is_equation(find) || !trial->known || trial->f != 0) return true;
-    const struct trial beside = {.p = trial->p + scan_step(find)};
-    double error;
-    return root_error(find, trial->p, finest(find), trial, &beside, &error) &&
-           find_add_root(find, trial, error);
 }

@@ -238,6 +238,34 @@ static void a_pair_between_two_runs_is_found(void **unused)
     assert_one(shot, question, NULL, 45, 1e-3);
 }
 
+/* It rests up to mu m g. */
+static void an_interval_of_solutions_has_two_ends(void **unused)
+{
+    (void)unused;
+    const fbd_setting setting = {"mu", "0.3"};
+    struct asked asked = ask(crate, "P = 1..40 N: crate.vx = 0 m/s",
+                             &(fbd_find_plan){.settings = &setting, .setting_count = 1});
+    assert_int_equal(fbd_find_solution_count(asked.find), 2);
+    assert_solution(asked.find, 0, 1, 1e-9);
+    assert_solution(asked.find, 1, 0.3 * 5 * g, 1e-7);
+    assert_string_equal(fbd_find_solution(asked.find, 0).above, "0 up to the next value");
+    assert_false(fbd_find_summary(asked.find).linear);
+    end(&asked);
+}
+
+/* Without friction nothing slips; that is no value at which it begins to. */
+static void an_end_with_another_outcome_is_no_solution(void **unused)
+{
+    (void)unused;
+    struct asked asked = ask(crate, "mu = 0..1: crate slips", NULL);
+    assert_int_equal(fbd_find_solution_count(asked.find), 1);
+    assert_solution(asked.find, 0, 10 / (5 * g), 1e-9);
+    char *text = fbd_find_text(asked.find);
+    assert_non_null(strstr(text, "with 0 alone   crate contact"));
+    fbd_free(text);
+    end(&asked);
+}
+
 /* x = P t^2/(2 m) */
 static void a_linear_difference_is_told(void **unused)
 {
@@ -364,6 +392,7 @@ static void wrong_questions_are_refused(void **unused)
     assert_refused(block, "mu:", NULL, "bad-find", "PARAMETER");
     assert_refused(block, "mu = 1..0: block slips", NULL, "bad-find", "smaller");
     assert_refused(block, "mu = 0:1:5", NULL, "bad-find", "no range");
+    assert_refused(block, "mu = 0..1, block slips", NULL, "bad-find", "no range");
     assert_refused(block, "mu = 0 m..1 s: block slips", NULL, "bad-find", "two units");
     assert_refused(block, "mu = 0..1 kg: block slips", NULL, "wrong-dimension", "kg");
     assert_refused(block, "mu: brick slips", NULL, "unknown-output", "count(");
@@ -427,6 +456,8 @@ int main(void)
         cmocka_unit_test(a_ball_hits_the_wall_at_a_height),
         cmocka_unit_test(a_pair_between_two_runs_is_found),
         cmocka_unit_test(a_linear_difference_is_told),
+        cmocka_unit_test(an_interval_of_solutions_has_two_ends),
+        cmocka_unit_test(an_end_with_another_outcome_is_no_solution),
         cmocka_unit_test(both_angles_are_found),
         cmocka_unit_test(both_sides_may_depend_on_the_parameter),
         cmocka_unit_test(a_jump_is_no_solution),
