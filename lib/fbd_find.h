@@ -81,9 +81,10 @@ typedef struct fbd_found {
     const char *parameter, *unit, *condition; /* unit of all its values; "" for a bare number */
     double from, to;
     double step; /* distance of the runs of the scan: of two solutions closer than that both may be missed */
-    bool linear; /* equations: their difference is linear at all runs of the scan, so there is no other solution */
-    size_t scan; /* runs of the scan */
-    size_t runs; /* all runs */
+    bool
+        linear; /* equations: their difference is linear at all runs of the scan, so there is no other solution */
+    size_t scan;   /* runs of the scan */
+    size_t runs;   /* all runs */
     size_t failed; /* runs without a value because they failed: fbd_find_gap */
 } fbd_found;
 
