@@ -81,7 +81,7 @@ static bool copy_question(struct fbd_sweep *sweep, const fbd_sweep_plan *plan)
 
 bool sweep_find_prepare(struct fbd_sweep *sweep, const fbd_sweep_plan *plan, fbd_errors *errors)
 {
-    enum { coarse = 3 }; /* runs that show what is wrong with a question */
+    enum { coarse = 3 }; /* runs are enough to refuse a wrong question */
     struct watched watched = {0};
     if (!copy_question(sweep, plan)) return false;
     const size_t runs = sweep->find.runs;

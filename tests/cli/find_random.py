@@ -333,7 +333,7 @@ def fault(family, seed):
     command = [RUN, "--find", question, *options, "--json", "-", "-"]
     done = subprocess.run(command, input=file, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
     told = f"{file}# {question} {' '.join(options)}\n# expected {expected}\n{done.stdout}{done.stderr}"
-    if done.returncode != 0 or not done.stdout:
+    if done.returncode != (0 if expected else 1) or not done.stdout:
         return f"exit {done.returncode}", told
     it = json.loads(done.stdout)
     found = [s for s in it["solutions"] if s["kind"] != "jump"]
