@@ -98,9 +98,9 @@ def _plan(vary: Vary, outputs: Union[str, Sequence[str]], zip: bool, seed: int, 
     texts, text_count, first = names_of(_texts(vary), "what varies")
     asked, asked_count, second = names_of(outputs, "what is noted")
     varied = {name for text in _texts(vary) for name in re.findall(r"(?:^|;)\s*([^=;]+?)\s*=", str(text))}
+    question = ffi.NULL if find is None else ffi.new("char[]", bytes_of(find, "the question"))
     if find is not None:
         varied.add(find.split(":")[0].split("=")[0].strip())
-    question = ffi.NULL if find is None else ffi.new("char[]", bytes_of(find, "the question"))
     settings, setting_count, third = settings_of({n: v for n, v in parameters.items() if n not in varied})
     run, method = run_options(**options)
     plan = ffi.new("fbd_sweep_plan *", {
