@@ -8,6 +8,7 @@
 #include "complain.h"
 #include "fbd_find.h"
 #include "fbd_view.h"
+#include "gnuplot.h"
 #include "place.h"
 #include "standard_streams.h"
 #include "whole_file.h"
@@ -145,12 +146,31 @@ static fbd_fit *fit_to(const fbd_model *model, const struct options *options, ch
     return fit;
 }
 
+/* Make the plot of a fit by gnuplot. */
+static bool plot_fit(const fbd_fit *fit, const char *path)
+{
+    struct whole_file file;
+    char *script = fbd_fit_gnuplot(fit, path);
+    const bool open = script && whole_file_open(&file, path),
+               made = open && gnuplot_run(script, fileno(file.stream));
+    const bool written = open && whole_file_close(&file, made);
+    if (!script)
+        complain("fbd-run: out of memory");
+    else if (!open || (made && !written))
+        complain("fbd-run: cannot write `%s`: %s", path, strerror(errno));
+    fbd_free(script);
+    return made && written;
+}
+
 /* A fit is done if the data determine all parameters. */
 static enum exit_code show_fit(const fbd_fit *fit, const struct options *options)
 {
-    const bool quiet = options->quiet || place_is_stdout(options->json);
+    const bool quiet = options->quiet || options_use_stdout(options);
     bool written = quiet || write_text(NULL, fbd_fit_text(fit)), determined = true;
     if (options->json && !write_text(options->json, fbd_fit_json(fit))) written = false;
+    if (options->gnuplot && !write_text(options->gnuplot, fbd_fit_gnuplot(fit, options->plot)))
+        written = false;
+    if (options->plot && !plot_fit(fit, options->plot)) written = false;
     for (size_t i = 0; i < fbd_fit_count(fit); i++) determined &= !isinf(fbd_fit_get(fit, i).error);
     fflush(stdout);
     return written && determined ? exit_done : exit_failed;

@@ -383,11 +383,12 @@ static bool find_agrees(const struct options *options)
         return usage("--fit goes without --find and --static", "");
     if (options->action != action_run && options->action != action_static)
         return usage("--find and --fit go with a run, --find also with --static", "");
-    if (options->svg || options->csv || options->html || options->plot || options->gnuplot ||
-        options->at_count || options->settle || options->watch || options->full || options->degrees)
+    if ((options->find && (options->plot || options->gnuplot)) || options->svg || options->csv ||
+        options->html || options->note || options->plot_of || options->at_count || options->settle ||
+        options->watch || options->full || options->degrees)
         return usage(
             "--find goes with --set, --without, --static, --runs, --json, --until, --method, --tolerance, "
-            "--step and --no-structure only",
+            "--step and --no-structure only, --fit also with --plot and --gnuplot",
             "");
     if (options->run.error_bars || options->run.accuracy > 0)
         return usage("--find and --fit have the errors of their values by themselves: without --error-bars "

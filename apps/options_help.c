@@ -64,6 +64,7 @@ const char options_help_without_run[] =
     "                       with --static those at which the equilibrium ceases\n"
     "  --runs NUMBER        with --find: runs of the first scan of the range (default 33)\n"
     "  --fit DATA.csv       the parameters that agree best with measured data: columns t, block.x, ...\n"
+    "                       (--plot and --gnuplot draw the data and the fitted run)\n"
     "  --parameters LIST    with --fit: of these, with commas between (default: all)\n"
     "  --explain            the effects simulated and not simulated, which are conservative and why\n"
     "  --check-hand         compare the hand derivations of the file with the assembled equations\n"

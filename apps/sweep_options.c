@@ -39,6 +39,10 @@ static const char help[] =
     "                         energy.kinetic .potential .work .residual, block.friction.work\n"
     "                         steps, rhs                the cost of the run\n"
     "                         final, times, energy      groups of these\n"
+    "  --find QUESTION      instead of outputs, the value of one more parameter at which a run changes or\n"
+    "                       has a result, as `fbd-run --find`: 'P = 0..40 N: crate tips'\n"
+    "  --static             with --find: of the scene at rest at its start\n"
+    "  --runs NUMBER        with --find: runs of the first scan of its range (default 33)\n"
     "  --degrees            angles and their rates in degrees; varied parameters stay as given\n"
     "  --csv FILE           file of the table (default: standard output); FILE.part until it is complete\n"
     "  --resume             continue FILE.part\n"
@@ -65,6 +69,9 @@ enum {
     option_resume,
     option_quiet,
     option_degrees,
+    option_find,
+    option_static,
+    option_runs,
 };
 
 static const struct option long_options[] = {
@@ -83,6 +90,9 @@ static const struct option long_options[] = {
     {"resume", no_argument, NULL, option_resume},
     {"quiet", no_argument, NULL, option_quiet},
     {"degrees", no_argument, NULL, option_degrees},
+    {"find", required_argument, NULL, option_find},
+    {"static", no_argument, NULL, option_static},
+    {"runs", required_argument, NULL, option_runs},
     COMMAND_LINE_END,
 };
 
@@ -101,6 +111,16 @@ static bool take_jobs(const struct command_line *line, size_t *jobs)
                             most_jobs, &value))
         return false;
     *jobs = value;
+    return true;
+}
+
+static bool take_runs(const struct command_line *line, size_t *runs)
+{
+    unsigned long value;
+    if (!command_line_whole(line, "--runs wants a number of runs from 3 to 1000000, not ", optarg, 3, 1000000,
+                            &value))
+        return false;
+    *runs = value;
     return true;
 }
 
@@ -127,6 +147,9 @@ static bool take_option(const struct command_line *line, int option, void *conte
     case option_resume: options->resume = true; return true;
     case option_quiet: options->quiet = true; return true;
     case option_degrees: plan->degrees = true; return true;
+    case option_find: plan->find = optarg; return true;
+    case option_static: plan->statics = true; return true;
+    case option_runs: return take_runs(line, &plan->find_runs);
     default: return command_line_usage(line, "unknown option, or an option without its value", "");
     }
 }
@@ -137,6 +160,11 @@ static bool options_agree(const struct command_line *line, struct sweep_options 
     if (options->plan.vary_count == 0)
         return command_line_usage(line,
                                   "nothing varies: give --vary NAME=VALUES (or use fbd-run for one run)", "");
+    const fbd_sweep_plan *plan = &options->plan;
+    if (plan->find && (plan->output_count > 0 || plan->degrees))
+        return command_line_usage(line, "--find takes the place of --output and --degrees", "");
+    if (!plan->find && (plan->statics || plan->find_runs))
+        return command_line_usage(line, "--static and --runs go with --find", "");
     if (options->resume && !options->csv)
         return command_line_usage(line, "--resume goes with --csv FILE: it goes on with FILE.part", "");
     return true;

@@ -36,8 +36,8 @@ typedef struct fbd_find_plan {
  * Without a range that of the file (`range`) is searched. The condition of a run is
  *
  *     none           the list of happenings changes: slips and contacts that open, at the start and as events
- *     an outcome     `block slips`, `crate lifts`, `crate tips`, or an event: its name, `stick`, `block.stick`:
- *                    it begins or ceases to happen
+ *     an outcome     `block slips`, `crate lifts`, `crate tips`, `cord breaks`, or an event: its name, `stick`,
+ *                    `block.stick`: it begins or ceases to happen
  *     an equation    `ball.x = 12 m`, `max(ball.y) = 2*R`, `time(land) = 1.5 s`: expressions of the outputs of a
  *                    sweep and of parameters
  *
@@ -46,8 +46,10 @@ typedef struct fbd_find_plan {
  *
  * Method: runs at equal distances in the range (a scan); between two that differ, bisection for outcomes and
  * Brent's method (GSL) for equations, until the parameter is known to 1e-12 of the range, or of its rounding.
- * Of two solutions between two runs of the scan both may be missed. The error of a solution contains the
- * effect of the tolerance of the run, estimated by runs with a hundredth of it (half the step).
+ * Of two changes of an outcome between two runs of the scan both may be missed; of two solutions of an equation
+ * only where the difference of its sides has several extrema between them, since every minimum of its size is
+ * searched. The error of a solution contains the effect of the tolerance of the run, estimated by runs with a
+ * hundredth of it (half the step).
  *
  * The text is that of a model file, `name` its name in messages (fbd_model_source). NULL with notes in
  * `errors`: those of a wrong file or option, `unknown-parameter`, `bad-find`, `unknown-output`, `stopped`. */
@@ -79,8 +81,10 @@ typedef struct fbd_found {
     const char *parameter, *unit, *condition; /* unit of all its values; "" for a bare number */
     double from, to;
     double step; /* distance of the runs of the scan: of two solutions closer than that both may be missed */
-    size_t scan; /* runs of the scan */
-    size_t runs; /* all runs */
+    bool
+        linear; /* equations: their difference is linear at all runs of the scan, so there is no other solution */
+    size_t scan;   /* runs of the scan */
+    size_t runs;   /* all runs */
     size_t failed; /* runs without a value because they failed: fbd_find_gap */
 } fbd_found;
 
@@ -163,6 +167,10 @@ FBD_API fbd_fit_quality fbd_fit_summary(const fbd_fit *fit);
 /* As text, and as one JSON object; NULL when memory is out. */
 FBD_API char *fbd_fit_text(const fbd_fit *fit);
 FBD_API char *fbd_fit_json(const fbd_fit *fit);
+
+/* The data and the fitted run as a script for gnuplot that contains them, one plot for each quantity. `file` as in
+ * fbd_result_gnuplot (fbd_export.h); NULL when memory is out. */
+FBD_API char *fbd_fit_gnuplot(const fbd_fit *fit, const char *file);
 
 #ifdef __cplusplus
 }

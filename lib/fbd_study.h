@@ -152,11 +152,17 @@ typedef struct fbd_sweep_plan {
     size_t output_count;
     const fbd_options *run; /* NULL for the file's; without error bars and accuracy: a row is one run */
     bool degrees;           /* outputs of angles and their rates are in degrees; varied values are as given */
+    const char
+        *find;    /* NULL, or a question (fbd_find_parse) for each run instead of outputs: the columns are the
+                       * parameter of the question (its first solution), `error`, `solutions` (their number), and
+                       * `runs` instead of `events` */
+    bool statics; /* of the question, as in fbd_find_plan */
+    size_t find_runs;
 } fbd_sweep_plan;
 
 /* Read a model file ("-" is standard input) or a text, for a sweep. NULL with notes in `errors`: those of a
  * wrong file or option (see fbd_model_read, fbd_simulation_new), and `bad-vary`, `unknown-parameter`,
- * `varied-twice`, `unknown-output`. The file must be valid with its own values. */
+ * `varied-twice`, `unknown-output`, and those of a question. The file must be valid with its own values. */
 FBD_API fbd_sweep *fbd_sweep_read(const char *path, const fbd_sweep_plan *plan, fbd_errors *errors);
 FBD_API fbd_sweep *fbd_sweep_parse(const char *text, size_t length, const char *name,
                                    const fbd_sweep_plan *plan, fbd_errors *errors);

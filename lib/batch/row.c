@@ -109,7 +109,7 @@ static void put_start(const struct row_maker *maker, uint64_t run, struct text *
     }
 }
 
-static void put_end(struct text *text, const char *status, const char *reason)
+void rows_put_end(struct text *text, const char *status, const char *reason)
 {
     put_field(text, status);
     put_field(text, reason);
@@ -140,7 +140,7 @@ static void put_wrong(const struct row_maker *maker, fbd_errors *errors, struct 
         break;
     }
     if (!note) lose(text);
-    put_end(text, "wrong", reason);
+    rows_put_end(text, "wrong", reason);
 }
 
 static const char *status_of(fbd_outcome outcome)
@@ -163,8 +163,7 @@ static const char *status_of(fbd_outcome outcome)
 static const char *next_happening(const struct observed *o, size_t *word, size_t *event, int *body)
 {
     const struct word_log *words = o->words;
-    while (*word < words->count && words->notes[*word].t > 0) (*word)++; /* of an event */
-    if (*word < words->count) {
+    if (*word < words->at_start) {
         *body = words->notes[*word].body;
         return row_word_name(words->notes[(*word)++].word);
     }
@@ -235,6 +234,7 @@ static bool carry(struct row_maker *maker, struct ensemble *run, struct ledger *
             run->outcome = FBD_FAILED;
         if (extremes && !extremes_step(maker->extremes, extremes, run, probe)) run->outcome = FBD_FAILED;
     }
+    if (words && run->refused && !word_log_step(&maker->words, run, probe)) run->outcome = FBD_OUT_OF_MEMORY;
     if (ledger && !ledger_at(ledger, run, ledger->work)) run->outcome = FBD_FAILED;
     return true;
 }
@@ -266,7 +266,7 @@ static void put_outcome(const struct ensemble *run, struct text *text)
                  run->refused->end.refusal_at.column, run->reason, run->refused->end.refusal);
     else if (run->refused)
         snprintf(reason, sizeof reason, "%s: %s [%s]", file, run->reason, run->refused->end.refusal);
-    put_end(text, status_of(run->outcome), run->refused ? reason : run->reason);
+    rows_put_end(text, status_of(run->outcome), run->refused ? reason : run->reason);
 }
 
 /* Append the columns of a finished run. */
@@ -289,7 +289,7 @@ static enum row_end put_run(struct row_maker *maker, struct ensemble *run, struc
     char reason[100];
     ended = run->outcome == FBD_DONE || run->outcome == FBD_STOPPED;
     if (ended && !is_balanced(run, ledger, reason, sizeof reason)) {
-        put_end(text, "inaccurate", reason);
+        rows_put_end(text, "inaccurate", reason);
         return row_failed;
     }
     put_outcome(run, text);

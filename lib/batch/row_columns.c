@@ -91,14 +91,37 @@ static int find_body(const struct fbd_model *model, const char *name, size_t len
     return -1;
 }
 
+/* The event of the file, or the `until` of a coupling if `ends`, with the name of `length` bytes; or -1. */
+static int find_watch(const struct fbd_model *model, const char *name, size_t length, bool ends)
+{
+    int found = -1;
+    for (size_t i = 0; i < model->plan.watch_count; i++) {
+        const struct user_event *event = model->plan.watches[i].source;
+        const bool same = strlen(event->name) == length && strncmp(event->name, name, length) == 0;
+        if (same && (event->ends > 0 || !ends)) found = (int)i;
+    }
+    return found;
+}
+
+/* `breaks`, `cord.breaks` of a coupling, `bob.breaks` of a body: a coupling ends by its `until`. */
+static bool find_break(const struct fbd_model *model, const char *name, const char *dot,
+                       struct column *column)
+{
+    column->event = (int)FBD_EVENT_COUPLING_ENDS;
+    if (!dot) return true;
+    column->watch = find_watch(model, name, (size_t)(dot - name), true);
+    column->body = find_body(model, name, (size_t)(dot - name));
+    return column->watch >= 0 || column->body >= 0;
+}
+
 /* NAME of the file, KIND, or BODY.KIND. */
 static bool find_event(const struct fbd_model *model, const char *name, struct column *column)
 {
-    column->event = column->body = column->watch = -1;
-    for (size_t i = 0; i < model->plan.watch_count; i++)
-        if (strcmp(model->plan.watches[i].source->name, name) == 0) column->watch = (int)i;
+    column->event = column->body = -1;
+    column->watch = find_watch(model, name, strlen(name), false);
     if (column->watch >= 0) return true;
     const char *dot = strchr(name, '.');
+    if (strcmp(dot ? dot + 1 : name, "breaks") == 0) return find_break(model, name, dot, column);
     if (dot && (column->body = find_body(model, name, (size_t)(dot - name))) < 0) return false;
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
         if (strcmp(fbd_event_kind_name(kinds[k]), dot ? dot + 1 : name) == 0) column->event = (int)kinds[k];

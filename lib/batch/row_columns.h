@@ -8,7 +8,7 @@
  *     min(block.x), max(rod.right.y)   over the run
  *     time(land), count(land)      of an event of the file: time of the first, number; also of a kind of event,
  *                                  time(stick), and of one body, time(block.stick); or of a word for an
- *                                  outcome, time(block.slips) (row_words.h)
+ *                                  outcome, time(block.slips) (row_words.h), time(cord.breaks)
  *     at(wall, ball.y)             a coordinate, a rate or of a point, just before the first of such an event
  *     R                            a parameter of the file
  *     energy.kinetic, .potential, .work, .residual    at the end

@@ -196,3 +196,12 @@ const char *row_formula_unit(const struct row_formula *formula)
 {
     return formula->unit;
 }
+
+bool row_formula_of_events(const struct row_formula *formula)
+{
+    for (size_t i = 0; i < formula->count; i++) {
+        const enum row_kind kind = formula->rows->columns.list[i].kind;
+        if (kind != row_time && kind != row_at && kind != row_parameter) return false;
+    }
+    return true;
+}

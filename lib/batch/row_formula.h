@@ -31,4 +31,7 @@ bool row_formula_compile(struct row_formula *formula, const struct rows *rows, f
 double row_formula_value(const struct row_formula *formula, const double *values);
 const char *row_formula_unit(const struct row_formula *formula);
 
+/* Does it name times of events and quantities at events only, which a run has that ends early, too? */
+bool row_formula_of_events(const struct row_formula *formula);
+
 #endif

@@ -135,6 +135,7 @@ bool word_log_step(struct word_log *log, struct ensemble *run, struct fbd_state 
     if (!log->started && run->t > run->from) {
         log->started = true;
         if (!note_start(log, run, probe)) return false;
+        log->at_start = log->count;
     }
     for (; log->seen < run->event_count; log->seen++)
         if (!note_event(log, run, &run->events[log->seen])) return false;
@@ -143,7 +144,7 @@ bool word_log_step(struct word_log *log, struct ensemble *run, struct fbd_state 
 
 void word_log_restart(struct word_log *log)
 {
-    log->count = log->seen = 0;
+    log->count = log->at_start = log->seen = 0;
     log->started = false;
 }
 

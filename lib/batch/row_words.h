@@ -29,7 +29,8 @@ struct word_note {
 struct word_log {
     struct word_note *notes; /* in the order of time */
     size_t count, room;
-    size_t seen; /* events of the run that were looked at */
+    size_t at_start; /* the first notes, which no event has */
+    size_t seen;     /* events of the run that were looked at */
     bool started;
 };
 

@@ -114,7 +114,7 @@ bool rows_try(const struct rows *rows, uint64_t run, fbd_errors *errors)
 
 /* ---- texts */
 
-void rows_header(const struct rows *rows, struct text *text)
+void rows_header_start(const struct rows *rows, struct text *text)
 {
     const struct scene *scene = rows->base->scene;
     text_add(text, "run");
@@ -127,6 +127,11 @@ void rows_header(const struct rows *rows, struct text *text)
             unit_name(parameter->dim, scene->units, unit, sizeof unit);
         text_printf(text, unit[0] ? ",%s [%s]" : ",%s%s", varying->name, unit);
     }
+}
+
+void rows_header(const struct rows *rows, struct text *text)
+{
+    rows_header_start(rows, text);
     for (size_t i = 0; i < rows->columns.count; i++) text_printf(text, ",%s", rows->columns.list[i].title);
     text_add(text, ",events,status,reason\n");
 }

@@ -53,6 +53,10 @@ bool rows_try(const struct rows *rows, uint64_t run, fbd_errors *errors);
 
 /* Append the header line, and a line with a hash for each table of the file. */
 void rows_header(const struct rows *rows, struct text *text);
+
+/* Append the start of the header, `run` and the varying parameters; and the end of a row, with its newline. */
+void rows_header_start(const struct rows *rows, struct text *text);
+void rows_put_end(struct text *text, const char *status, const char *reason);
 void rows_tables(const struct rows *rows, struct text *text);
 
 /* ---- making rows */

@@ -8,17 +8,14 @@
 
 #include "base/api_check.h"
 #include "base/diag.h"
-#include "base/utf8.h"
+#include "base/gnuplot.h"
 #include "dynamics/modes.h"
 #include "fbd_export.h"
 #include "output/display_units.h"
 #include "output/run_record.h"
 #include "output/words.h"
 
-enum { digits = 10, most_events = 200, plot_width = 900, plot_height = 300 };
-
-/* The time gnuplot takes to read data within a script is quadratic. */
-enum { most_rows = 4000 };
+enum { digits = 10, most_events = 200, most_rows = gnuplot_most_rows };
 
 /* The plotted columns of the record, those of one unit together. */
 struct choice {
@@ -129,46 +126,6 @@ static struct display display_of_column(const struct choice *choice, size_t inde
     return moves ? display_in_degrees(display, choice->degrees) : display;
 }
 
-/* Quote a string. Between single quotes gnuplot takes everything literally, commands as well, and '' for one
- * quote; but not at the start, and not for two in a row, where the string would end. So such a quote becomes
- * a typographic one. Gnuplot's SVG output does not escape the end of a CDATA section, which XML forbids in a
- * text. */
-static void quote(struct text *text, const char *string)
-{
-    char before = '\'';
-    text_add(text, "'");
-    while (*string) {
-        struct utf8_shown next = utf8_show(string);
-        if (*string == '\'')
-            text_add(text, before == '\'' ? "\u2019" : "''");
-        else
-            text_add_bytes(text, next.text, next.length);
-        if (strncmp(string, "]>", 2) == 0) text_add(text, " ");
-        before = *string;
-        string += next.taken;
-    }
-    text_add(text, "'");
-}
-
-static bool ends_with(const char *string, const char *end)
-{
-    size_t length = strlen(string), tail = strlen(end);
-    return length >= tail && strcmp(string + length - tail, end) == 0;
-}
-
-static void write_terminal(struct text *text, const char *file, size_t plots)
-{
-    size_t height = plots * plot_height + 40;
-    if (ends_with(file, ".svg"))
-        text_printf(text, "set terminal svg size %d,%zu dynamic font 'Arial,13' background 'white'\n",
-                    plot_width, height);
-    else if (ends_with(file, ".pdf"))
-        text_printf(text, "set terminal pdfcairo size 18cm,%gcm font 'Arial,9'\n",
-                    18.0 * (double)height / plot_width);
-    else if (ends_with(file, ".png"))
-        text_printf(text, "set terminal pngcairo size %d,%zu font 'Arial,11'\n", plot_width, height);
-}
-
 static bool is_thinned(const struct record *record)
 {
     return record_is_thinned(record) || record->count > most_rows;
@@ -240,7 +197,7 @@ static void write_event_names(struct text *text, const struct choice *choice, co
         if (event->t - last < apart) continue;
         last = event->t;
         text_add(text, "set label ");
-        quote(text, event->kind == FBD_EVENT_USER && name[0] ? name : kind);
+        gnuplot_quote(text, event->kind == FBD_EVENT_USER && name[0] ? name : kind);
         text_add(text, " noenhanced at first ");
         text_number(text, event->t, digits);
         text_add(text, ", graph 0.03 left rotate by 90 offset character -0.6,0 front textcolor 'gray30'\n");
@@ -258,19 +215,6 @@ static bool begins_plot(const struct choice *choice, size_t index)
     for (size_t k = 0; k < index; k++)
         if (strcmp(unit_of(choice, k), unit_of(choice, index)) == 0) return false;
     return true;
-}
-
-/* m/s^2 as m/s², N*m as N·m. */
-static void write_unit(struct text *text, const char *unit)
-{
-    for (; *unit; unit++) {
-        if (*unit == '*')
-            text_add(text, "·");
-        else if (unit[0] == '^' && (unit[1] == '2' || unit[1] == '3'))
-            text_add(text, *++unit == '2' ? "²" : "³");
-        else
-            text_add_bytes(text, unit, 1);
-    }
 }
 
 /* The common quantity of the columns of one unit; for a single column its name. */
@@ -304,10 +248,10 @@ static void write_axes(struct text *text, const struct choice *choice, size_t fi
     text_printf(text, "set offsets 0, 0, graph %.2f, graph 0.04\nset ylabel ", 0.1 * (double)rows + 0.05);
     struct text title = {0};
     text_printf(&title, "%s [", axis_title(choice, first, count));
-    write_unit(&title, unit_of(choice, first));
+    gnuplot_unit(&title, unit_of(choice, first));
     text_add(&title, "]");
     text->failed |= title.failed;
-    quote(text, title.data ? title.data : "");
+    gnuplot_quote(text, title.data ? title.data : "");
     text_free(&title);
     text_add(text, " noenhanced\n");
 }
@@ -326,7 +270,7 @@ static void write_plot(struct text *text, const struct choice *choice, size_t fi
                         "linecolor %zu notitle, ",
                         2 * k + 2, 2 * k + 3, style);
         text_printf(text, "$data using 1:%zu with lines linecolor %zu title ", k + 2, style++);
-        quote(text, choice->record->columns[choice->columns[k]].name);
+        gnuplot_quote(text, choice->record->columns[choice->columns[k]].name);
         text_add(text, " noenhanced");
         before = ", \\\n     ";
     }
@@ -338,18 +282,10 @@ static void write_script(struct text *text, const struct choice *choice, const s
 {
     size_t plots = 0;
     for (size_t k = 0; k < choice->count; k++) plots += begins_plot(choice, k);
-    text_add(text, "# A script for gnuplot, written by fbd\n");
-    if (file) write_terminal(text, file, plots);
+    gnuplot_begin(text, file, plots);
     write_data(text, choice);
-    text_printf(text, "set multiplot layout %zu,1 title ", plots);
-    quote(text, run->model->scene->title);
-    text_add(text, " noenhanced\nset grid\nset key inside left top horizontal maxcols 3 samplen 2\nset "
-                   "xlabel 'time t [s]'\n");
-    text_add(text, "set lmargin 12\nset rmargin 4\nset xrange [");
-    text_number(text, choice->record->times[0], digits);
-    text_add(text, ":");
-    text_number(text, choice->record->times[choice->record->count - 1], digits);
-    text_add(text, "]\n");
+    gnuplot_layout(text, run->model->scene->title, plots, choice->record->times[0],
+                   choice->record->times[choice->record->count - 1]);
     write_events(text, run);
     write_event_names(text, choice, run);
     for (size_t k = 0, plotted = 0; k < choice->count; k++) {

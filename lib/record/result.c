@@ -42,6 +42,8 @@ bool fbd_result_balanced(fbd_result *result, double *residual, double *explained
                                           fbd_result_residual_explained(result)};
     if (result && !(fabs(balance.residual) > balance.explained))
         balance = ensemble_energy_balance(result->simulation->ensemble);
+    if (result && result->simulation->ensemble->refused)
+        balance = (struct energy_balance){0, 0}; /* no motion */
     if (residual) *residual = balance.residual;
     if (explained) *explained = balance.explained;
     return result && !(fabs(balance.residual) > balance.explained);

@@ -32,26 +32,35 @@ static double scan_point(const struct fbd_find *find, size_t i)
     return i + 1 == find->scan ? find->to : find->from + (find->to - find->from) * ((double)i / last);
 }
 
-static void note_scan(struct fbd_find *find, size_t i, const struct trial *trial)
+static void note_scan(struct fbd_find *find, size_t i, const struct trial *last, const struct trial *trial)
 {
+    const double rounding = 1e-9;
     if (i == 0) find->throughout = trial->story;
     find->least = i == 0 ? trial->f : fmin(find->least, trial->f);
     find->most = i == 0 ? trial->f : fmax(find->most, trial->f);
+    if (i == 1) find->slope = (trial->f - last->f) / (trial->p - last->p);
+    const double change = i > 0 ? trial->f - last->f - find->slope * (trial->p - last->p) : 0;
+    const bool equal = i > 0 && trial->f == 0 && last->f == 0;
+    find->linear = (i == 0 || find->linear) && trial->known && !equal &&
+                   fabs(change) <= rounding * fmax(fabs(find->least), fabs(find->most));
 }
 
 static bool scan(struct fbd_find *find)
 {
-    struct trial last = {0}, trial;
+    struct trial before = {0}, last = {0}, trial;
     for (size_t i = 0; i < find->scan; i++) {
         if (!find_try(find, scan_point(find, i), false, &trial)) return false;
         if (fbd_errors_failed_count(find->errors) > 0) return false;
-        note_scan(find, i, &trial);
+        note_scan(find, i, &last, &trial);
         if (!trial.known && !find_add_gap(find, &trial)) return false;
+        if (i == 1 && !find_solve_end(find, &last, &trial)) return false;
+        if (i > 1 && !find_solve_pair(find, &before, &last, &trial)) return false;
         if (i > 0 && !find_solve(find, &last, &trial)) return false;
-        if (!find_take_exact(find, &trial)) return false;
+        if (i > 0 && !find_take_zero(find, i > 1 ? &before : NULL, &last, &trial)) return false;
+        before = last;
         last = trial;
     }
-    return true;
+    return find_take_zero(find, &before, &last, NULL) && find_solve_end(find, &last, &before);
 }
 
 static bool search(struct fbd_find *find, const char *question)
@@ -149,6 +158,7 @@ fbd_found fbd_find_summary(const fbd_find *find)
                        .from = find->from,
                        .to = find->to,
                        .step = (find->to - find->from) / (double)(find->scan - 1),
+                       .linear = find->linear && find_is_equation(find),
                        .scan = find->scan,
                        .runs = find->runs,
                        .failed = find->failed};

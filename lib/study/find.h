@@ -8,6 +8,7 @@
  *     scan         trials at equal distances; between two neighbours that differ there is a solution
  *     solution     bisection for outcomes, Brent's method (GSL) for equations; its error from trials with a
  *                  smaller tolerance                                      (find_solve.c)
+ *     pair         two roots between neighbours, from a minimum of |f|    (find_pair.c)
  */
 #ifndef FBD_STUDY_FIND_H
 #define FBD_STUDY_FIND_H
@@ -69,7 +70,11 @@ struct fbd_find {
     fbd_find_gap *gaps;
     size_t gap_count, gap_room;
     const char *throughout; /* the story of the first trial, "" without one */
-    double least, most;     /* of the trials of the scan: left side minus right side, or the margin */
+    const char *
+        alone[2]; /* the story at an end of the range, where all other values have another outcome; or NULL */
+    double least, most; /* of the trials of the scan: left side minus right side, or the margin */
+    double slope;       /* of the first two */
+    bool linear;        /* those of all of them are linear in the parameter */
     size_t scan, runs, failed;
     bool stopped;
 };
@@ -89,11 +94,33 @@ bool find_try(struct fbd_find *find, double p, bool tight, struct trial *trial);
 /* True if there is a solution between two known trials. */
 bool find_differs(const struct fbd_find *find, const struct trial *a, const struct trial *b);
 
+/* Has a trial a difference or margin f? */
+static inline bool find_is_equation(const struct fbd_find *find)
+{
+    return find->kind == find_equation || find->kind == find_limit;
+}
+
 /* Find the solutions between two trials of the scan. Returns false as find_try. */
 bool find_solve(struct fbd_find *find, const struct trial *a, const struct trial *b);
 
-/* Add a trial of the scan at which an equation holds exactly. Returns false as find_try. */
-bool find_take_exact(struct fbd_find *find, const struct trial *trial);
+/* Find two roots of an equation between a trial b and its neighbours a < b < c, if |f| is least at b; and between an
+ * end of the range and its neighbour. Returns false as find_try (find_pair.c). */
+bool find_solve_pair(struct fbd_find *find, const struct trial *a, const struct trial *b,
+                     const struct trial *c);
+bool find_solve_end(struct fbd_find *find, const struct trial *end, const struct trial *inner);
+
+/* Add a trial as a solution of an equation; false when memory is out. */
+bool find_add_root(struct fbd_find *find, const struct trial *trial, double error);
+
+/* Add a trial of the scan at which an equation holds exactly; of several neighbours the ends of their interval. A
+ * neighbour is NULL at the end of the range. Returns false as find_try (find_pair.c). */
+bool find_take_zero(struct fbd_find *find, const struct trial *before, const struct trial *trial,
+                    const struct trial *after);
+
+/* The width of the last bracket, and the error of a root at p between a and b, which is at least that. */
+double find_finest(const struct fbd_find *find);
+bool find_root_error(struct fbd_find *find, double p, double width, const struct trial *a,
+                     const struct trial *b, double *error);
 
 /* Add a trial without a value to the list; false when memory is out. */
 bool find_add_gap(struct fbd_find *find, const struct trial *trial);

@@ -32,7 +32,7 @@ static bool read_end(struct fbd_find *find, const char *text, double *value, con
     const size_t length = number_length(text + sign, strlen(text + sign));
     *value = length ? number_value(text + sign, length) * (text[0] == '-' ? -1 : 1) : NAN;
     *unit = trimmed(find, text + sign + length, strlen(text + sign + length));
-    return *unit && isfinite(*value);
+    return *unit && isfinite(*value) && !strpbrk(*unit, ",;");
 }
 
 /* FROM..TO UNIT; FROM may have the unit, too. */

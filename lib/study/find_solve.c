@@ -10,17 +10,14 @@
 
 #include "study/find.h"
 
-static bool is_equation(const struct fbd_find *find)
+/* The width of the last bracket, a share of the range, or the rounding of the parameter. For outcomes above the
+ * tolerance by which modes are decided: 1e-12 of the forces, which in a coefficient of friction of 0.03 is 3e-11 of it. */
+double find_finest(const struct fbd_find *find)
 {
-    return find->kind == find_equation || find->kind == find_limit;
-}
-
-/* The width of the last bracket, a share of the range: for outcomes above the tolerances by which modes are
- * decided, some 1e-12 of the forces; or the rounding of the parameter. */
-static double finest(const struct fbd_find *find)
-{
-    const double share = is_equation(find) ? 1e-12 : 1e-10;
-    return fmax(share * (find->to - find->from), 4 * DBL_EPSILON * fmax(fabs(find->from), fabs(find->to)));
+    const double outcome = 1e-10, equation = 1e-12;
+    const double range = find->to - find->from, end = fmax(fabs(find->from), fabs(find->to));
+    if (find_is_equation(find)) return fmax(equation * range, 4 * DBL_EPSILON * end);
+    return outcome * fmax(range, end);
 }
 
 static double scan_step(const struct fbd_find *find)
@@ -48,7 +45,7 @@ static bool add_solution(struct fbd_find *find, const fbd_solution *solution)
  * noted, and ends it with *lost. */
 static bool bisect(struct fbd_find *find, struct trial *low, struct trial *high, bool *lost)
 {
-    while (high->p - low->p > finest(find)) {
+    while (high->p - low->p > find_finest(find)) {
         const double middle = low->p + (high->p - low->p) / 2;
         struct trial trial;
         if (!find_try(find, middle, false, &trial)) return false;
@@ -86,13 +83,21 @@ static bool widen(struct fbd_find *find, const struct trial *low, double p, doub
     return true;
 }
 
+/* Does an end of the range alone have its outcome? Without friction nothing slips, in the sense of the words. */
+static bool is_end_alone(struct fbd_find *find, const struct trial *low, const struct trial *high)
+{
+    if (low->p == find->from) find->alone[0] = low->story;
+    if (high->p == find->to) find->alone[1] = high->story;
+    return low->p == find->from || high->p == find->to;
+}
+
 /* Move `high` beyond further changes that are as near as the last bracket is wide: they are one. */
 static bool pass_neighbours(struct fbd_find *find, const struct trial *b, struct trial *high)
 {
     enum { most_neighbours = 16 };
     for (int i = 0; i < most_neighbours && find_differs(find, high, b); i++) {
         struct trial next;
-        const double p = high->p + 2 * finest(find);
+        const double p = high->p + 2 * find_finest(find);
         if (p >= b->p) return true;
         if (!find_try(find, p, false, &next)) return false;
         if (!next.known || !find_differs(find, high, &next)) return true;
@@ -137,7 +142,7 @@ static bool brent(struct search *search, double from, double to, double *low, do
     gsl_function function = {difference, search};
     gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
     int status = solver ? gsl_root_fsolver_set(solver, &function, from, to) : GSL_ENOMEM;
-    const double width = finest(search->find);
+    const double width = find_finest(search->find);
     for (int i = 0; status == GSL_SUCCESS && i < most_iterations; i++) {
         status = gsl_root_fsolver_iterate(solver);
         *low = gsl_root_fsolver_x_lower(solver);
@@ -161,19 +166,21 @@ static const char *difference_text(struct fbd_find *find, const struct trial *tr
     return kept;
 }
 
-/* The error of a root: the difference of a run of smaller tolerance there, divided by the slope. */
-static bool root_error(struct fbd_find *find, double p, double width, const struct trial *a,
-                       const struct trial *b, double *error)
+/* The error of a root: the difference of a run of smaller tolerance there, divided by the slope. Central
+ * differences: beside a maximum just above zero the slope changes within little. */
+bool find_root_error(struct fbd_find *find, double p, double width, const struct trial *a,
+                     const struct trial *b, double *error)
 {
-    const double share = 1e-3;
-    double h = share * (b->p - a->p);
-    struct trial tight, beside;
+    const double share = 1e-3, h = share * (b->p - a->p);
+    struct trial tight, above, below;
     *error = width;
     if (find->plan->statics) return true;
-    if (p + h > find->to || p + h < find->from) h = -h;
-    if (!find_try(find, p, true, &tight) || !find_try(find, p + h, true, &beside)) return false;
-    const double slope = (beside.f - tight.f) / h;
-    *error = tight.known && beside.known && slope != 0 ? width + fabs(tight.f / slope) : scan_step(find);
+    if (!find_try(find, p, true, &tight) || !find_try(find, fmin(p + h, find->to), true, &above) ||
+        !find_try(find, fmax(p - h, find->from), true, &below))
+        return false;
+    const double slope = (above.f - below.f) / (above.p - below.p);
+    const bool known = tight.known && isfinite(slope) && slope != 0;
+    *error = known ? width + fabs(tight.f / slope) : scan_step(find);
     return true;
 }
 
@@ -194,8 +201,8 @@ static bool solve_equation(struct fbd_find *find, const struct trial *a, const s
                              .below = difference_text(find, jump ? &below : a),
                              .above = difference_text(find, jump ? &above : b)};
     if (jump)
-        solution.error = fmax(high - low, finest(find));
-    else if (!root_error(find, root, fmax(high - low, finest(find)), a, b, &solution.error))
+        solution.error = fmax(high - low, find_finest(find));
+    else if (!find_root_error(find, root, fmax(high - low, find_finest(find)), a, b, &solution.error))
         return false;
     return add_solution(find, &solution);
 }
@@ -218,7 +225,7 @@ static bool refine(struct fbd_find *find, const struct trial *a, const struct tr
     const double f0 = ends[0].f, f1 = ends[1].f, size = fmax(fabs(f0), fabs(f1));
     if (made && find_differs(find, &ends[0], &ends[1]) && isfinite(f0) && isfinite(f1)) {
         solution->value = a->p + (b->p - a->p) * (f0 / (f0 - f1));
-        solution->error = finest(find);
+        solution->error = find_finest(find);
         solution->closed_form = fabs(middle.f - (f0 + f1) / 2) <= rounding * size;
         *found = true;
     }
@@ -226,7 +233,7 @@ static bool refine(struct fbd_find *find, const struct trial *a, const struct tr
         struct search search = {.find = find};
         double low = a->p, high = b->p;
         *found = brent(&search, a->p, b->p, &low, &high, &solution->value);
-        solution->error = fmax(high - low, finest(find));
+        solution->error = fmax(high - low, find_finest(find));
         made = !search.failed;
     }
     find->kind = kind;
@@ -270,6 +277,10 @@ static bool solve_outcome(struct fbd_find *find, const struct trial *a, const st
         const struct trial first = low;
         if (!bisect(find, &low, &high, &lost)) return false;
         if (lost) return true;
+        if (is_end_alone(find, &low, &high)) {
+            low = high;
+            continue;
+        }
         if (!pass_neighbours(find, b, &high)) return false;
         fbd_solution solution = {.kind = FBD_SOLUTION_CHANGE,
                                  .value = (low.p + high.p) / 2,
@@ -296,7 +307,7 @@ static bool solve_outcome(struct fbd_find *find, const struct trial *a, const st
 bool find_solve(struct fbd_find *find, const struct trial *a, const struct trial *b)
 {
     if (!a->known || !b->known || !find_differs(find, a, b)) return true;
-    if (!is_equation(find)) return solve_outcome(find, a, b);
+    if (!find_is_equation(find)) return solve_outcome(find, a, b);
     if (find->kind == find_equation) return solve_equation(find, a, b);
     fbd_solution solution = {.kind = FBD_SOLUTION_ROOT,
                              .below = difference_text(find, a),
@@ -305,15 +316,12 @@ bool find_solve(struct fbd_find *find, const struct trial *a, const struct trial
     return refine(find, a, b, find->limit, &solution, &found) && (!found || add_solution(find, &solution));
 }
 
-bool find_take_exact(struct fbd_find *find, const struct trial *trial)
+bool find_add_root(struct fbd_find *find, const struct trial *trial, double error)
 {
-    if (!is_equation(find) || !trial->known || trial->f != 0) return true;
-    const double step = trial->p < find->to ? scan_step(find) : -scan_step(find);
-    const struct trial beside = {.p = trial->p + step};
-    fbd_solution solution = {.kind = FBD_SOLUTION_ROOT,
-                             .value = trial->p,
-                             .below = difference_text(find, trial),
-                             .above = difference_text(find, trial)};
-    return root_error(find, trial->p, finest(find), trial, &beside, &solution.error) &&
-           add_solution(find, &solution);
+    const fbd_solution solution = {.kind = FBD_SOLUTION_ROOT,
+                                   .value = trial->p,
+                                   .error = error,
+                                   .below = difference_text(find, trial),
+                                   .above = difference_text(find, trial)};
+    return add_solution(find, &solution);
 }

@@ -108,6 +108,17 @@ static void write_gaps(struct text *text, const struct fbd_find *find)
     if (find->gap_count > most_listed) text_printf(text, "  and %zu others\n", find->gap_count - most_listed);
 }
 
+/* The ends of the range whose outcome no other value has. */
+static void write_alone(struct text *text, const struct fbd_find *find)
+{
+    for (int end = 0; end < 2; end++) {
+        if (!find->alone[end]) continue;
+        text_add(text, "      with ");
+        put_value(text, find, end == 0 ? find->from : find->to);
+        text_printf(text, " alone   %s\n", find->alone[end][0] ? find->alone[end] : "nothing happens");
+    }
+}
+
 static void write_none(struct text *text, const struct fbd_find *find)
 {
     text_add(text, "  no such value in this range\n");
@@ -132,10 +143,15 @@ char *fbd_find_text(const fbd_find *find)
     write_question(&text, find);
     for (size_t i = 0; i < find->solution_count; i++) write_solution(&text, find, &find->solutions[i]);
     if (find->solution_count == 0) write_none(&text, find);
+    write_alone(&text, find);
     write_gaps(&text, find);
     text_printf(&text, "\n%zu runs, %zu of them at distances of ", found.runs, found.scan);
     put_value(&text, find, found.step);
-    text_add(&text, ": of two values closer than that both may be missed\n");
+    text_add(&text, found.linear ? ": the difference is linear there, and there is no other value\n"
+                    : find_is_equation(find)
+                        ? ": of two values closer than that both may be missed if the difference has "
+                          "several extrema between them\n"
+                        : ": of two values closer than that both may be missed\n");
     if (text.failed) text_free(&text);
     return text.data;
 }
@@ -174,7 +190,8 @@ char *fbd_find_json(const fbd_find *find)
     text_json_words(&text, "condition", found.condition, ",\n  ");
     text_json_member(&text, "from", found.from, ", ");
     text_json_member(&text, "to", found.to, ", ");
-    text_json_member(&text, "step", found.step, ",\n");
+    text_json_member(&text, "step", found.step, ", ");
+    text_json_flag(&text, "linear", found.linear, ",\n");
     text_printf(&text, "  \"scan\": %zu, \"runs\": %zu, \"failed\": %zu,\n  \"solutions\": [", found.scan,
                 found.runs, found.failed);
     for (size_t i = 0; i < find->solution_count; i++) {

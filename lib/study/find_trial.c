@@ -105,7 +105,8 @@ static bool try_run(struct fbd_find *find, bool tight, struct trial *trial)
     trial->known = !trial->failed;
     if (find->kind == find_equation) {
         trial->f = row_formula_value(find->formula, look->values);
-        trial->known = trial->known && !broken && isfinite(trial->f);
+        trial->known =
+            trial->known && isfinite(trial->f) && (!broken || row_formula_of_events(find->formula));
     }
     trial->outcome = find->kind == find_happenings ? trial->story
                      : look->values[0] > 0         ? "it happens"
@@ -242,7 +243,6 @@ bool find_try(struct fbd_find *find, double p, bool tight, struct trial *trial)
 
 bool find_differs(const struct fbd_find *find, const struct trial *a, const struct trial *b)
 {
-    const bool equation = find->kind == find_equation || find->kind == find_limit;
-    if (equation) return (a->f < 0) != (b->f < 0) && a->f != 0 && b->f != 0;
+    if (find_is_equation(find)) return (a->f < 0) != (b->f < 0) && a->f != 0 && b->f != 0;
     return strcmp(a->outcome, b->outcome) != 0;
 }

@@ -88,11 +88,10 @@ static bool make(struct fbd_fit *fit, const char *data, size_t length)
         fbd_simulation *simulation = fbd_simulation_new(model, &run, fit->errors);
         fine = simulation != NULL;
         fbd_simulation_free(simulation);
-        fit->data.unit = arena_text(&fit->arena, fit->data.unit, strlen(fit->data.unit));
         set_tolerance(fit, model);
     }
     fbd_model_free(model);
-    return fine && fit->data.unit && check_counts(fit) && fit_solve(fit);
+    return fine && check_counts(fit) && fit_solve(fit);
 }
 
 static bool is_asked(fbd_fit_plan *plan, fbd_options *run, const char *text, const char *data,

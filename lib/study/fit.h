@@ -21,10 +21,13 @@ struct fit_value {
     size_t column;
 };
 
+enum { fit_curve_rows = 501 };
+
 struct fit_data {
     struct fit_value *values; /* in the order of time */
     size_t count;
     const char **columns; /* names of quantities */
+    const char **units;   /* theirs */
     const char *unit;     /* of all columns; "" if weighted */
     size_t column_count;
     bool weighted;
@@ -44,6 +47,7 @@ struct fbd_fit {
     double tolerance; /* of the runs */
 
     struct fit_data data;
+    double *curve; /* fit_curve_rows rows of the fitted run: t, then the columns */
     fbd_fitted *fitted;
     size_t count;
     double *covariance; /* count x count: of the determined parameters, NAN for others */
@@ -54,9 +58,13 @@ struct fbd_fit {
     bool stopped;
 };
 
-/* Residuals with these values of the parameters, one for each measured value. Returns false with fit->reason when the
+/* Residuals of data with these values of the parameters, one for each value. Returns false with fit->reason when the
  * run fails, or stopped. */
-bool fit_residuals(struct fbd_fit *fit, const double *p, double *r);
+bool fit_residuals(struct fbd_fit *fit, const struct fit_data *data, const double *p, double *r);
+
+/* Compute the values of the fitted run at equal intervals. Returns false as fit_residuals, or when memory is out
+ * (fit_plot.c). */
+bool fit_make_curve(struct fbd_fit *fit);
 
 /* Minimize. Returns false with notes. */
 bool fit_solve(struct fbd_fit *fit);

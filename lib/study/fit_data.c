@@ -194,14 +194,18 @@ static bool check_heads(struct csv *csv)
     if (data->column_count == 0)
         return refuse(csv, NULL, "bad-data", NULL, "%s", "the data have no column beside `t`");
     data->weighted = has_column(csv, column_deviation, 0);
-    data->unit = data->weighted ? "" : unit_of(csv, data->columns[0]);
+    for (size_t i = 0; i < data->column_count; i++) {
+        const char *unit = unit_of(csv, data->columns[i]);
+        if (!(data->units[i] = arena_text(csv->arena, unit, strlen(unit)))) return false;
+    }
+    data->unit = data->weighted ? "" : data->units[0];
     for (size_t i = 0; i < data->column_count; i++) {
         if (!has_column(csv, column_value, i))
             return refuse(csv, NULL, "bad-data", NULL, "the values of `%.40s` are missing", data->columns[i]);
         if (has_column(csv, column_deviation, i) != data->weighted)
             return refuse(csv, NULL, "bad-data", "give a column `NAME +-` for each quantity, or for none",
                           "`%.40s` differs from the others in having standard deviations", data->columns[i]);
-        if (!data->weighted && strcmp(unit_of(csv, data->columns[i]), data->unit) != 0)
+        if (!data->weighted && strcmp(data->units[i], data->unit) != 0)
             return refuse(csv, NULL, "bad-data",
                           "give the standard deviations of each quantity in a column `NAME +-`",
                           "`%.40s` has another unit than the first quantity: their residuals cannot be added",
@@ -303,7 +307,8 @@ bool fit_data_read(struct fit_data *data, struct arena *arena, const char *text,
     struct csv csv = {
         .data = data, .arena = arena, .model = model, .errors = errors, .next = text, .end = text + length};
     *data = (struct fit_data){.columns = ARENA_ARRAY(arena, most_columns, const char *)};
-    if (!data->columns) return false;
+    data->units = ARENA_ARRAY(arena, most_columns, const char *);
+    if (!data->columns || !data->units) return false;
     diag_in_file(errors, name);
     if (length >= 3 && memcmp(text, mark, 3) == 0) csv.next += 3;
     if (memchr(text, '\0', length)) return refuse(&csv, NULL, "bad-data", NULL, "%s", "the data are no text");

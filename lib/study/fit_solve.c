@@ -44,33 +44,34 @@ static fbd_model *model_of(struct fbd_fit *fit, const double *p)
 }
 
 /* Residuals of the values in the last step, from value *next on. */
-static bool take(const struct fbd_fit *fit, fbd_simulation *simulation, fbd_state *state, size_t *next,
+static bool take(const struct fit_data *data, fbd_simulation *simulation, fbd_state *state, size_t *next,
                  double *r)
 {
     double from, to, y;
     fbd_simulation_interval(simulation, &from, &to);
-    for (; *next < fit->data.count && fit->data.values[*next].t <= to; (*next)++) {
-        const struct fit_value *value = &fit->data.values[*next];
+    for (; *next < data->count && data->values[*next].t <= to; (*next)++) {
+        const struct fit_value *value = &data->values[*next];
         if (!fbd_simulation_state(simulation, value->t, state)) return false;
-        if (!fbd_state_get(state, fit->data.columns[value->column], &y)) return false;
+        if (!fbd_state_get(state, data->columns[value->column], &y)) return false;
         r[*next] = (y - value->value) / value->deviation;
     }
     return true;
 }
 
-static bool run_along(struct fbd_fit *fit, const fbd_model *model, fbd_simulation *simulation, double *r)
+static bool run_along(struct fbd_fit *fit, const struct fit_data *data, const fbd_model *model,
+                      fbd_simulation *simulation, double *r)
 {
     fbd_state *state = fbd_state_new(model);
     fbd_outcome outcome = FBD_GOING;
     size_t next = 0;
     bool taken = state != NULL;
-    while (taken && outcome == FBD_GOING && next < fit->data.count) {
+    while (taken && outcome == FBD_GOING && next < data->count) {
         outcome = fbd_simulation_advance(simulation);
         taken =
-            outcome != FBD_FAILED && outcome != FBD_OUT_OF_MEMORY && take(fit, simulation, state, &next, r);
+            outcome != FBD_FAILED && outcome != FBD_OUT_OF_MEMORY && take(data, simulation, state, &next, r);
     }
     fbd_state_free(state);
-    if (taken && next == fit->data.count) return true;
+    if (taken && next == data->count) return true;
     const char *reason = fbd_simulation_reason(simulation);
     if (!reason[0]) reason = "the run ends before the last time of the data";
     fit->reason = arena_text(&fit->arena, reason, strlen(reason));
@@ -86,13 +87,13 @@ static bool goes_on(struct fbd_fit *fit)
     return false;
 }
 
-bool fit_residuals(struct fbd_fit *fit, const double *p, double *r)
+bool fit_residuals(struct fbd_fit *fit, const struct fit_data *data, const double *p, double *r)
 {
     fbd_options run = *fit->plan->run;
-    run.until = fmax(fit->data.values[fit->data.count - 1].t, 1e-9);
+    run.until = fmax(data->values[data->count - 1].t, 1e-9);
     fbd_model *model = model_of(fit, p);
     fbd_simulation *simulation = model ? fbd_simulation_new(model, &run, fit->run_errors) : NULL;
-    bool made = simulation && run_along(fit, model, simulation, r);
+    bool made = simulation && run_along(fit, data, model, simulation, r);
     if (!simulation && fit->run_errors) {
         size_t i = 0;
         while (i + 1 < fbd_errors_count(fit->run_errors) &&
@@ -120,7 +121,7 @@ static int residuals(const gsl_vector *x, void *context, gsl_vector *f)
 {
     struct fbd_fit *fit = context;
     if (fit->stopped) return GSL_EBADFUNC;
-    if (!fit_residuals(fit, x->data, f->data)) fill_refused(f);
+    if (!fit_residuals(fit, &fit->data, x->data, f->data)) fill_refused(f);
     return fit->stopped ? GSL_EBADFUNC : GSL_SUCCESS;
 }
 
@@ -135,9 +136,9 @@ static int derivatives(const gsl_vector *x, void *context, gsl_matrix *J)
         const double value = gsl_vector_get(x, k), h = cbrt(fit->tolerance) * (value != 0 ? fabs(value) : 1);
         gsl_vector_memcpy(p, x);
         gsl_vector_set(p, k, value + h);
-        bool made = fit_residuals(fit, p->data, up->data);
+        bool made = fit_residuals(fit, &fit->data, p->data, up->data);
         gsl_vector_set(p, k, value - h);
-        made = made && fit_residuals(fit, p->data, down->data);
+        made = made && fit_residuals(fit, &fit->data, p->data, down->data);
         if (!made) status = GSL_EBADFUNC;
         for (size_t i = 0; made && i < n; i++)
             gsl_matrix_set(J, i, k, (up->data[i] - down->data[i]) / (2 * h));
@@ -266,7 +267,7 @@ static bool minimize(struct fbd_fit *fit, gsl_multifit_nlinear_workspace *work,
     gsl_vector *start = gsl_vector_alloc(fit->count);
     if (!start) return false;
     for (size_t k = 0; k < fit->count; k++) gsl_vector_set(start, k, fit->fitted[k].value);
-    bool begun = fit_residuals(fit, start->data, work->f->data);
+    bool begun = fit_residuals(fit, &fit->data, start->data, work->f->data);
     int status = begun ? gsl_multifit_nlinear_init(start, system, work) : GSL_EBADFUNC;
     gsl_vector_free(start);
     if (status != GSL_SUCCESS) return give_up(fit, "no run with the parameters of the start");
@@ -294,6 +295,8 @@ bool fit_solve(struct fbd_fit *fit)
     bool fine = work && fit->covariance && minimize(fit, work, &system) &&
                 covariance(fit, gsl_multifit_nlinear_jac(work));
     if (fine) set_errors(fit);
+    if (fine && !fit_make_curve(fit))
+        fine = !fit->arena.failed && give_up(fit, "the run with the fitted parameters failed");
     if (work) gsl_multifit_nlinear_free(work);
     return fine;
 }

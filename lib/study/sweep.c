@@ -42,6 +42,9 @@ static void set_key(struct fbd_sweep *sweep, const fbd_sweep_plan *plan)
     text_printf(key, "%s, seed %lu\n", plan->zip ? "side by side" : "each with each", plan->seed);
     for (size_t i = 0; i < plan->output_count; i++) text_printf(key, "output %s\n", plan->outputs[i]);
     if (plan->degrees) text_add(key, "angles in degrees\n");
+    if (plan->find)
+        text_printf(key, "find %s, %zu runs%s\n", plan->find, plan->find_runs,
+                    plan->statics ? ", statics" : "");
     text_printf(key, "method %s, tolerance ", plan->run->method ? plan->run->method : "of the file");
     text_number(key, plan->run->tolerance, 17);
     text_add(key, ", step ");
@@ -83,7 +86,11 @@ static bool build(struct fbd_sweep *sweep, const char *name, const fbd_sweep_pla
         axes_read(&sweep->axes, &sweep->arena, plan->vary, plan->vary_count, plan->zip, plan->seed, errors);
     sweep->rows = rows_open(sweep->source, sweep->source_length, file, errors);
     if (!sweep->rows || !axes || !prepare(sweep, plan, errors)) return false;
-    rows_header(sweep->rows, &sweep->header);
+    sweep->name = file;
+    if (!plan->find)
+        rows_header(sweep->rows, &sweep->header);
+    else if (!sweep_find_prepare(sweep, plan, errors))
+        return false;
     set_key(sweep, plan);
     return add_data(sweep, errors) && !sweep->header.failed && !sweep->key.failed;
 }
@@ -130,6 +137,8 @@ static bool is_asked(struct asked *asked, const char *text, const fbd_sweep_plan
              !api_has_texts(plan->outputs, plan->output_count) ||
              !api_has_settings(plan->settings, plan->setting_count))
         api_refuse(errors, "a text of the plan is missing");
+    else if (plan->find && (plan->output_count > 0 || plan->degrees))
+        api_refuse(errors, "a question takes the place of outputs");
     else
         return true;
     return false;

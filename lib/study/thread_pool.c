@@ -107,11 +107,13 @@ static int stops(void *context)
     return crew->work.stop ? crew->work.stop(crew->work.stop_context) : 0;
 }
 
-static void make_rows(struct row_maker *maker, struct place *place)
+static void make_rows(fbd_sweep_workers *crew, struct row_maker *maker, struct place *place)
 {
+    const struct fbd_sweep *sweep = crew->sweep;
     size_t whole = 0;
     for (uint64_t run = place->first; run < place->end; run++) {
-        enum row_end end = row_make(maker, run, &place->rows);
+        enum row_end end = sweep->question ? sweep_find_row(sweep, run, stops, crew, &place->rows)
+                                           : row_make(maker, run, &place->rows);
         if (end == row_stopped || place->rows.failed) break;
         place->made++;
         place->failed += end == row_failed;
@@ -149,7 +151,7 @@ static void *work(void *context)
         if (simd)
             make_rows_simd(simd, place);
         else
-            make_rows(maker, place);
+            make_rows(crew, maker, place);
         double seconds = (now() - start) / (double)(place->end - place->first);
         pthread_mutex_lock(&crew->lock);
         crew->seconds = crew->seconds > 0 ? 0.5 * (crew->seconds + seconds) : seconds;
@@ -199,7 +201,7 @@ fbd_sweep_workers *fbd_sweep_start(const fbd_sweep *sweep, const fbd_sweep_work 
     crew->sweep = sweep;
     crew->work = own;
     crew->helpers = helpers;
-    crew->simd = rows_simd_suits(sweep->rows);
+    crew->simd = !sweep->question && rows_simd_suits(sweep->rows);
     if (crew->work.end > sweep->axes.runs) crew->work.end = (size_t)sweep->axes.runs;
     crew->next = work->first;
     crew->jobs = work->jobs ? work->jobs : processors();

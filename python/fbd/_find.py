@@ -49,6 +49,8 @@ class Found:
         #: the range that was searched, and the distance of the runs of the scan: of two solutions closer than
         #: that both may be missed
         self.low, self.high, self.step = getattr(found, "from"), found.to, found.step
+        #: of an equation: the difference of its sides is linear in the range, and there is no other solution
+        self.linear = bool(found.linear)
         #: all runs, those of the scan, and those that failed
         self.runs, self.scan, self.failed = found.runs, found.scan, found.failed
         solutions = (lib.fbd_find_solution(handle, i) for i in range(lib.fbd_find_solution_count(handle)))

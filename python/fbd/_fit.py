@@ -36,6 +36,7 @@ class Fit(Mapping[str, Fitted]):
 
     def __init__(self, handle: Any):
         self._text, self._json = taken(lib.fbd_fit_text(handle)), taken(lib.fbd_fit_json(handle))
+        self._script = taken(lib.fbd_fit_gnuplot(handle, ffi.NULL))
         count = lib.fbd_fit_count(handle)
         structs = [lib.fbd_fit_get(handle, i) for i in range(count)]
         self._fitted = {text_at(s.name): Fitted(text_at(s.name), text_at(s.unit), s.value, s.error, s.low, s.high)
@@ -61,6 +62,10 @@ class Fit(Mapping[str, Fitted]):
     def json(self) -> str:
         """What ``fbd-run --fit --json`` writes."""
         return self._json
+
+    def gnuplot(self) -> str:
+        """A script for gnuplot that draws the data and the fitted run."""
+        return self._script
 
     def __str__(self) -> str:
         return self._text

@@ -219,18 +219,19 @@ class Model:
 
     def sweep(self, vary: Vary, outputs: Union[str, Sequence[str]] = (), *, zip: bool = False, seed: int = 1,
               jobs: int = 0, until: Optional[float] = None, tolerance: Optional[float] = None,
-              step: Optional[float] = None, method: Optional[str] = None, structure: bool = True,
-              progress: Optional[Callable[[int, int], Any]] = None) -> SweepTable:
+              step: Optional[float] = None, method: Optional[str] = None, structure: bool = True, find: Optional[str] = None,
+              statics: bool = False, runs: int = 0, progress: Optional[Callable[[int, int], Any]] = None) -> SweepTable:
         """Run the model under many values of its parameters; a structured array with a row for each run.
 
         vary: texts of ``fbd-sweep --vary`` ("mu=0.1:0.6:51", "m=normal(2,0.1) kg:100"), or a mapping from names to
         values ({"mu": [0.1, 0.2]}); each value is combined with each, with ``zip`` they go side by side. outputs:
         names of what is noted ("block.x", "max(block.v)", "time(stick)"): docs/sweep.md. jobs: threads, 0 for all
-        processors; the rows do not depend on it. ``progress`` is called with the rows that are done, and all.
+        processors; the rows do not depend on it. find: instead of outputs a question of :meth:`find`, with its statics
+        and runs, for each row. ``progress`` is called with the rows that are done, and all.
         """
         options: Dict[str, Any] = {"until": until, "tolerance": tolerance, "step": step, "method": method,
                                    "structure": structure}
-        plan, kept = _sweep._plan(vary, outputs, zip, seed, self._parameters, options)
+        plan, kept = _sweep._plan(vary, outputs, zip, seed, self._parameters, options, find, statics, runs)
         table = _sweep.sweep(self._source(), self._name, plan, whole(jobs, "jobs", 10000), progress)
         del kept
         return table

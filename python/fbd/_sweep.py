@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Callable, Dict, List, Mapping, Optional, 
 import numpy as np
 
 from ._binding import ffi, lib
-from ._library import made, names_of, quantity, run_options, settings_of, text_at, whole
+from ._library import bytes_of, made, names_of, quantity, run_options, settings_of, text_at, whole
 from ._notes import complaint, warn
 from ._watch import in_background
 
@@ -94,18 +94,22 @@ def _work(sweep: Any, sheet: Any, jobs: int) -> Any:
 
 
 def _plan(vary: Vary, outputs: Union[str, Sequence[str]], zip: bool, seed: int, parameters: Mapping[str, Any],
-          options: Mapping[str, Any]) -> Tuple[Any, Any]:
+          options: Mapping[str, Any], find: Optional[str], statics: bool, runs: int) -> Tuple[Any, Any]:
     texts, text_count, first = names_of(_texts(vary), "what varies")
     asked, asked_count, second = names_of(outputs, "what is noted")
     varied = {name for text in _texts(vary) for name in re.findall(r"(?:^|;)\s*([^=;]+?)\s*=", str(text))}
+    question = ffi.NULL if find is None else ffi.new("char[]", bytes_of(find, "the question"))
+    if find is not None:
+        varied.add(find.split(":")[0].split("=")[0].strip())
     settings, setting_count, third = settings_of({n: v for n, v in parameters.items() if n not in varied})
     run, method = run_options(**options)
     plan = ffi.new("fbd_sweep_plan *", {
         "vary": texts, "vary_count": text_count, "zip": bool(zip), "seed": whole(seed, "the seed", 2**64 - 1),
         "settings": settings, "setting_count": setting_count,
         "outputs": asked, "output_count": asked_count, "run": run,
+        "find": question, "statics": bool(statics), "find_runs": whole(runs, "runs", 1000000),
     })
-    return plan, (texts, first, asked, second, settings, third, run, method)
+    return plan, (texts, first, asked, second, settings, third, run, method, question)
 
 
 def sweep(source: bytes, name: bytes, plan: Any, jobs: int,

@@ -25,6 +25,15 @@ check 'which is there' says '^  h = 2\.5 m' out
 check '--quiet leaves it out' exits 0 run --quiet --find 'h = 2..3 m: car lifts' "$loop"
 check 'where only the exit code speaks' test ! -s out
 
+bump='fbd: 1
+parameters: {v0: 5 m/s}
+bodies:
+  car: {mass: 2 kg, motion: {track: {x: "2[m]*sin(p)", y: "2[m]*cos(p)", from: -80 deg, to: 80 deg}}, initial: {p: 0, v: v0}, forces: [gravity, normal]}
+simulate: {until: 1 s}'
+echo "$bump" >bump.yaml
+check 'a run that does not start ends with 1' exits 1 run bump.yaml
+check 'and its reason alone' sh -c '! grep -q accurate err'
+
 check 'statics have a closed form' exits 0 run --static --find 'mu = 0.1..1' "$models/statics/ladder.yaml"
 check 'which is said' says '^  mu = 0\.33414384119   \(closed form: the margin is linear\)$' out
 check 'of a limit too' exits 0 run --static --find 'mu = 0.1..1: foot.friction' "$models/statics/ladder.yaml"
@@ -44,6 +53,7 @@ check 'a quantity that is none is 2' exits 2 run --find 'phi: block.q = 1 m' "$b
 check 'and named' says '^--find: error: a run has no quantity `block\.q`.*\[unknown-output\]' err
 check 'a wrong unit is 2' exits 2 run --find 'phi: block.x = 1 s' "$block"
 check '--csv does not go with it' exits 2 run --find 'phi: block.x = 1 m' --csv a.csv "$block"
+check 'a plot neither' exits 2 run --find 'phi: block.x = 1 m' --gnuplot a.gp "$block"
 check '--linearize neither' exits 2 run --find 'phi: block.x = 1 m' --linearize "$block"
 check '--runs goes with --find' exits 2 run --runs 5 "$block"
 check 'and is a number' exits 2 run --find 'phi: block.x = 1 m' --runs 2 "$block"

@@ -51,6 +51,17 @@ check 'and the noise' json '0.008 < it["deviation"] < 0.012 and it["unit"] == "r
 check 'two quantities with their deviations' exits 0 run --fit both.csv --json - $far pendulum.yaml
 check 'have the true values within the intervals too' json "$within"
 check 'and squares of about one for each' json 'it["weighted"] and 0.8 < it["deviation"] < 1.2 and it["values"] == 202'
+check 'the plot as a script' exits 0 run --fit both.csv --gnuplot - $far pendulum.yaml
+check 'has a plot for each quantity' sh -c '[ "$(grep -c "^plot " out)" -eq 2 ]'
+check 'of the data with their deviations and the run' says 'measured2 with yerrorbars .* .measured.$' out
+check 'in the place of the text' sh -c '! grep -q Correlations out'
+if command -v gnuplot >/dev/null; then
+    check 'the plot as a picture' exits 0 run --fit angle.csv --plot fit.svg pendulum.yaml
+    check 'is one' says '<svg' fit.svg
+    check 'a place that is none is 1' exits 1 run --fit angle.csv --plot nowhere/fit.svg pendulum.yaml
+fi
+check 'columns of a run do not go with it' exits 2 run --fit angle.csv --gnuplot a.gp --plot-of pendulum.theta pendulum.yaml
+check 'a note neither' exits 2 run --fit angle.csv --note a.html pendulum.yaml
 check 'one parameter alone' exits 0 run --fit angle.csv --parameters c --json - pendulum.yaml
 check 'is the only one' json 'list(of) == ["c"] and abs(of["c"]["value"] - 0.5) < 3*of["c"]["error"]'
 

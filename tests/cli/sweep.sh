@@ -20,6 +20,19 @@ check 'and has a row for each run' rows 6 out
 check 'under a header with names and units' \
     says '^run,phi \[deg\],v0 \[m/s\],t \[s\],block.x \[m\],block.v \[m/s\],events,status,reason$' out
 check 'a pipe sees no progress' is_empty err
+check 'a question in the place of outputs is 0' exits 0 run --vary mu_s=0.2,0.5 --set mu_k=0.1 --set v0=0 --set f1=0 --find 'phi=1..60 deg: block slips' "$incline"
+check 'and has the value, its error and their number' says '^run,mu_s,phi \[deg\],error \[deg\],solutions,runs,status,reason$' out
+check 'for each run' says '^1,0.2,11.309932474[0-9]*,' out
+check 'and the next' says '^2,0.5,26.56505117[0-9]*,[0-9.e-]+,1,[0-9]+,done,$' out
+check 'a limit of statics' exits 0 run --vary 'phi=50:70 deg:3' --static --find 'mu = 0.1..1' "$FBD_SOURCE_ROOT/models/statics/ladder.yaml"
+check 'has the same table for any number of threads' sh -c '"$0" --quiet --jobs 3 --vary "phi=50:70 deg:3" --static --find "mu = 0.1..1" "$1" | cmp - out' "$program" "$FBD_SOURCE_ROOT/models/statics/ladder.yaml"
+check 'no value is an empty one' exits 0 run --vary mu_s=0.2,0.5 --find 'phi=1..2 deg: block.x = 900 m' --runs 3 "$incline"
+check 'of no solutions' says '^1,0.2,,,0,[0-9]+,done,$' out
+check 'a wrong value is a row' exits 1 run --vary mu_k=0.3,-1 --find 'phi=1..60 deg: block.x = 0.7 m' "$incline"
+check 'with its reason' says '^2,-1,,,,,wrong,.*must be zero or above' out
+check 'a wrong question is 2' exits 2 run --vary mu_s=0.2,0.5 --find 'phi=1..60 deg: block slides' "$incline"
+check 'outputs do not go with a question' exits 2 run --vary mu_s=0.2,0.5 --find 'phi=1..60 deg: block slips' --output t "$incline"
+check 'statics go with one' exits 2 run --vary mu_s=0.2,0.5 --static "$incline"
 check 'a run that cannot be is a row and 1' exits 1 run --vary mu_k=-0.2,0.3 "$incline"
 check 'with its reason' says '^1,-0.2,,,,,wrong,.*`kinetic` must be zero or above' out
 check 'and the others are made' says '^2,0.3,3,0.908.*,done,$' out

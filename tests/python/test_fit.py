@@ -28,7 +28,7 @@ def test_it_is_a_linear_regression():
     np.testing.assert_allclose(fit.squares, squares[0], rtol=1e-5)
     assert fit["F"].low < F < fit["F"].high and fit["F"].unit == "N" and list(fit) == ["v0", "F"]
     assert fit.freedom == 28 and fit.values_count == 30 and fit.unit == "m" and fit.correlations.shape == (2, 2)
-    assert "v0" in repr(fit) and "95 %" in str(fit)
+    assert "v0" in repr(fit) and "95 %" in str(fit) and "'block.x [m]'" in fit.gnuplot()
 
 
 def test_it_is_that_of_the_program(tmp_path):

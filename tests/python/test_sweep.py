@@ -93,3 +93,13 @@ def test_progress(pendulum):
     pendulum.sweep("theta0=uniform(0.1,1):3000", "pendulum.theta", progress=lambda *counts: seen.append(counts))
     assert seen and all(runs == 3000 for _, runs in seen)
     assert all(a[0] <= b[0] for a, b in zip(seen, seen[1:])) and seen[-1][0] > 0
+
+
+def test_questions_in_place_of_outputs(incline):
+    table = fbd.Model(INCLINE, mu_k=0.1, v0=0, f1=0).sweep({"mu_s": [0.2, 0.5]}, find="phi = 1..60 deg: block slips", runs=9)
+    assert table.units == {"phi": "deg", "error": "deg"} and list(table["solutions"]) == [1, 1]
+    alone = incline.find("phi = 1..60 deg: block slips", runs=9)  # with the mu_s of the file
+    assert alone.scan == 9 and table.dtype.names == ("run", "mu_s", "phi", "error", "solutions", "runs", "status", "reason")
+    np.testing.assert_array_less(np.abs(table["phi"] - np.degrees(np.arctan([0.2, 0.5]))), table["error"])
+    with pytest.raises(fbd.Error, match="place of outputs"):
+        incline.sweep({"mu_s": [0.2, 0.5]}, "t", find="phi = 1..60 deg: block slips")

@@ -82,6 +82,7 @@ void fits(void **context)
     ANSWERS(fbd_fit_summary, is_nan(fbd_fit_summary(NULL).squares));
     ANSWERS(fbd_fit_text, !fbd_fit_text(NULL));
     ANSWERS(fbd_fit_json, !fbd_fit_json(NULL));
+    ANSWERS(fbd_fit_gnuplot, !fbd_fit_gnuplot(NULL, NULL));
 }
 
 void sweeps(void **context)

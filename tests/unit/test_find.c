@@ -42,6 +42,20 @@ static const char ball[] =
     "    initial: {vx: v0*cos(angle), vy: v0*sin(angle)}\n    forces: [gravity]\n"
     "simulate:\n  until: 10 s\n  events: [{name: wall, when: x = d, then: stop}]\n";
 
+/* A bob on a string that is released at the side. */
+static const char string[] =
+    "fbd: 1\nparameters: {T: {value: 20 N, range: [1 N, 40 N]}}\nground: {points: {A: [0, 0]}}\n"
+    "bodies:\n  bob: {mass: 1 kg, motion: particle, initial: {x: 1 m}, forces: [gravity]}\n"
+    "couplings:\n  - rope: {name: cord, through: [bob, ground.A], until: tension > T}\nsimulate: {until: 0.8 "
+    "s}\n";
+
+/* A car on the top of a circular bump of 2 m. */
+static const char bump[] =
+    "fbd: 1\nparameters: {v0: {value: 1 m/s, range: [1 m/s, 6 m/s]}, R: 2 m}\n"
+    "bodies:\n  car:\n    mass: 2 kg\n"
+    "    motion: {track: {x: R*sin(p), y: R*cos(p), from: -80 deg, to: 80 deg}}\n"
+    "    initial: {p: 0, v: v0}\n    forces: [gravity, normal]\nsimulate: {until: 1e-6 s}\n";
+
 struct asked {
     fbd_find *find;
     fbd_errors *errors;
@@ -134,6 +148,38 @@ static void an_event_of_the_file_begins_to_happen(void **unused)
                10 / (0.9 * sqrt(0.5)), 1e-7);
 }
 
+/* 3 m g at the lowest point */
+static void a_string_breaks(void **unused)
+{
+    (void)unused;
+    assert_one(string, "T: cord breaks", NULL, 3 * g, 1e-7);
+    assert_one(string, "T: bob breaks", NULL, 3 * g, 1e-7);
+    assert_one(string, "T: breaks", NULL, 3 * g, 1e-7);
+}
+
+/* sqrt(g R): above that the run does not start. */
+static void a_car_that_lifts_at_once_lifts(void **unused)
+{
+    (void)unused;
+    assert_one(bump, "v0: car lifts", NULL, sqrt(2 * g), 1e-8);
+    struct asked asked = ask(bump, "v0: car lifts", NULL);
+    assert_string_equal(fbd_find_solution(asked.find, 0).below, "");
+    assert_string_equal(fbd_find_solution(asked.find, 0).above, "car contact_lost");
+    end(&asked);
+}
+
+/* It lifts at cos(p) = (2 + v^2/(g R))/3, where the run ends. */
+static void a_run_that_ends_early_has_its_events(void **unused)
+{
+    (void)unused;
+    const fbd_find_plan plan = {.run = &(fbd_options){.until = 5}};
+    const double v0 = 3;
+    char question[100];
+    snprintf(question, sizeof question, "v0 = 1..4 m/s: at(contact_lost, car.s) = %.17g m",
+             2 * acos((2 + v0 * v0 / (2 * g)) / 3));
+    assert_one(bump, question, &plan, v0, 1e-8);
+}
+
 /* ---- equations */
 
 static double height_at_wall(double v0, double angle)
@@ -162,6 +208,78 @@ static void both_angles_are_found(void **unused)
     const double q = g * 100 / (2 * 144), root = sqrt(100 - 4 * q * (q + 2));
     assert_solution(asked.find, 0, atan((10 - root) / (2 * q)) * 180 / pi, 1e-7);
     assert_solution(asked.find, 1, atan((10 + root) / (2 * q)) * 180 / pi, 1e-7);
+    end(&asked);
+}
+
+/* d = v0^2 sin(2 a)/g a little below its maximum, and at it. */
+static void a_pair_between_two_runs_is_found(void **unused)
+{
+    (void)unused;
+    static const char shot[] =
+        "fbd: 1\nparameters: {angle: {value: 30 deg, range: [20 deg, 80 deg]}}\n"
+        "bodies:\n  ball:\n    mass: 0.2 kg\n    motion: particle\n"
+        "    initial: {vx: \"10[m/s]*cos(angle)\", vy: \"10[m/s]*sin(angle)\"}\n    forces: [gravity]\n"
+        "simulate:\n  until: 10 s\n  events: [{name: land, when: y = 0 m, then: stop}]\n";
+    char question[100];
+    const double share[] = {1e-3, 1e-5, 1e-7, 1e-6},
+                 ends[] = {80.5, 80.5, 80.5, 45.1}; /* the last between runs at an end */
+    for (size_t i = 0; i < sizeof share / sizeof *share; i++) {
+        snprintf(question, sizeof question, "angle = 20..%g deg: ball.x = %.17g m", ends[i],
+                 100 / g * (1 - share[i]));
+        struct asked asked = ask(shot, question, NULL);
+        assert_int_equal(fbd_find_solution_count(asked.find), 2);
+        const double angle = asin(1 - share[i]) / 2 * 180 / pi;
+        assert_solution(asked.find, 0, angle, 1e-5);
+        assert_solution(asked.find, 1, 90 - angle, 1e-5);
+        assert_false(fbd_find_summary(asked.find).linear);
+        end(&asked);
+    }
+    snprintf(question, sizeof question, "angle = 20..80.5 deg: ball.x = %.17g m", 100 / g);
+    assert_one(shot, question, NULL, 45, 1e-3);
+}
+
+/* It rests up to mu m g. */
+static void an_interval_of_solutions_has_two_ends(void **unused)
+{
+    (void)unused;
+    const fbd_setting setting = {"mu", "0.3"};
+    struct asked asked = ask(crate, "P = 1..40 N: crate.vx = 0 m/s",
+                             &(fbd_find_plan){.settings = &setting, .setting_count = 1});
+    assert_int_equal(fbd_find_solution_count(asked.find), 2);
+    assert_solution(asked.find, 0, 1, 1e-9);
+    assert_solution(asked.find, 1, 0.3 * 5 * g, 1e-7);
+    assert_string_equal(fbd_find_solution(asked.find, 0).above, "0 up to the next value");
+    assert_false(fbd_find_summary(asked.find).linear);
+    end(&asked);
+}
+
+/* Without friction nothing slips; that is no value at which it begins to. */
+static void an_end_with_another_outcome_is_no_solution(void **unused)
+{
+    (void)unused;
+    struct asked asked = ask(crate, "mu = 0..1: crate slips", NULL);
+    assert_int_equal(fbd_find_solution_count(asked.find), 1);
+    assert_solution(asked.find, 0, 10 / (5 * g), 1e-9);
+    char *text = fbd_find_text(asked.find);
+    assert_non_null(strstr(text, "with 0 alone   crate contact"));
+    fbd_free(text);
+    end(&asked);
+}
+
+/* x = P t^2/(2 m) */
+static void a_linear_difference_is_told(void **unused)
+{
+    (void)unused;
+    static const char pushed[] =
+        "fbd: 1\nparameters: {P: {value: 1 N, range: [0 N, 10 N]}}\n"
+        "bodies: {block: {mass: 2 kg, motion: slide, forces: [applied: {name: push, value: P}]}}\n"
+        "simulate: {until: 2 s}\n";
+    struct asked asked = ask(pushed, "P: block.x = 3 m", NULL);
+    assert_true(fbd_find_summary(asked.find).linear);
+    assert_solution(asked.find, 0, 3, 1e-9);
+    char *text = fbd_find_text(asked.find);
+    assert_non_null(strstr(text, "is linear there, and there is no other value"));
+    fbd_free(text);
     end(&asked);
 }
 
@@ -274,6 +392,7 @@ static void wrong_questions_are_refused(void **unused)
     assert_refused(block, "mu:", NULL, "bad-find", "PARAMETER");
     assert_refused(block, "mu = 1..0: block slips", NULL, "bad-find", "smaller");
     assert_refused(block, "mu = 0:1:5", NULL, "bad-find", "no range");
+    assert_refused(block, "mu = 0..1, block slips", NULL, "bad-find", "no range");
     assert_refused(block, "mu = 0 m..1 s: block slips", NULL, "bad-find", "two units");
     assert_refused(block, "mu = 0..1 kg: block slips", NULL, "wrong-dimension", "kg");
     assert_refused(block, "mu: brick slips", NULL, "unknown-output", "count(");
@@ -331,7 +450,14 @@ int main(void)
         cmocka_unit_test(a_crate_tips_where_the_push_has_the_moment_of_its_weight),
         cmocka_unit_test(a_crate_slides_first_where_friction_is_small),
         cmocka_unit_test(an_event_of_the_file_begins_to_happen),
+        cmocka_unit_test(a_string_breaks),
+        cmocka_unit_test(a_car_that_lifts_at_once_lifts),
+        cmocka_unit_test(a_run_that_ends_early_has_its_events),
         cmocka_unit_test(a_ball_hits_the_wall_at_a_height),
+        cmocka_unit_test(a_pair_between_two_runs_is_found),
+        cmocka_unit_test(a_linear_difference_is_told),
+        cmocka_unit_test(an_interval_of_solutions_has_two_ends),
+        cmocka_unit_test(an_end_with_another_outcome_is_no_solution),
         cmocka_unit_test(both_angles_are_found),
         cmocka_unit_test(both_sides_may_depend_on_the_parameter),
         cmocka_unit_test(a_jump_is_no_solution),

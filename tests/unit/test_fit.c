@@ -256,6 +256,7 @@ static void fits_that_cannot_be_made(void **unused)
     assert_int_equal(fbd_fit_count(NULL), 0);
     assert_null(fbd_fit_get(NULL, 0).name);
     assert_null(fbd_fit_text(NULL));
+    assert_null(fbd_fit_gnuplot(NULL, NULL));
 }
 
 int main(void)
