@@ -386,7 +386,7 @@ static bool look_at_contacts(struct run *run)
     contacts_open_or_close(run, count, struck);
     if (struck) contacts_hold_speeds(run, count);
     if (rests) {
-        count = zeno_rest(run, count);
+        count = zeno_rest(run);
         contacts_open_or_close(run, count, true);
         moved = zeno_lift_others(run);
     }

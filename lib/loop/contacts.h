@@ -212,13 +212,16 @@ double contacts_restitution(struct run *run, int meeting, double approach);
  * (zeno.c) */
 bool zeno_end_bounces(struct run *run, int count);
 
-/* Remove separation speeds of surfaces and ropes by impulses, with the friction that the weight would have
- * caused: resting bodies exert m a T in the time T of the series, and so do bouncing ones but for m v. */
-void zeno_remove_separation(struct run *run, int count);
+/* Find the responses of the impact constraints, with their velocities before. False after failing the run. */
+bool contacts_find_responses(struct run *run, int count);
+
+/* Stop the impact constraints that stay closed by the impulses of the remaining impacts, with friction
+ * (zeno_impulses.c). Their responses have been found. */
+void zeno_apply_remainder(struct run *run, int count);
 
 /* Place bouncing bodies on their surfaces (zeno_rest.c); the impact constraints are then the touching
  * contacts. Returns their number. */
-int zeno_rest(struct run *run, int strikers);
+int zeno_rest(struct run *run);
 
 /* Would that change the speed of each body by no more than bounces below the tolerance do? */
 bool zeno_rest_is_harmless(struct run *run, int count);

@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The impulses of the impacts beyond the cut of a series, compared with those of rest (loop/zeno.h).
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "dynamics/tree_system.h"
+#include "loop/contacts.h"
+#include "loop/run.h"
+#include "numeric/qr.h"
+#include "numeric/tolerances.h"
+
+/* Lines of the system: normal and tangent of each impact constraint, then the slides. */
+struct remainder {
+    struct run *run;
+    int count, all;
+    double *A; /* all x all */
+    double *b, *P;
+    bool *stops; /* of each line along a surface or a guide: its velocity is or becomes zero */
+};
+
+static bool remainder_new(struct remainder *remainder, struct run *run, int count)
+{
+    const int all = 2 * count + run->contacts.slide_count;
+    const size_t size = (size_t)all;
+    *remainder = (struct remainder){.run = run, .count = count, .all = all};
+    remainder->A = calloc(size * (size + 2) + 1, sizeof(double));
+    remainder->stops = calloc(size + 1, sizeof(bool));
+    if (!remainder->A || !remainder->stops) return false;
+    remainder->b = remainder->A + size * size;
+    remainder->P = remainder->b + size;
+    return true;
+}
+
+static void remainder_free(struct remainder *remainder)
+{
+    free(remainder->A);
+    free(remainder->stops);
+}
+
+static const struct coupling *coupling_of(const struct remainder *remainder, int i)
+{
+    return &remainder->run->model->tree->couplings[remainder->run->contacts.strikers[i].coupling];
+}
+
+/* Does constraint i stay closed? */
+static bool rests(const struct remainder *remainder, int i)
+{
+    const struct contacts_work *work = &remainder->run->contacts;
+    return work->strikers[i].stays || !(work->v[(ptrdiff_t)2 * i] > 0);
+}
+
+/* The unit of the impulse of a line: that which changes its velocity by one. */
+static double unit_of(const struct remainder *remainder, int line)
+{
+    const double own = remainder->run->contacts.W[(ptrdiff_t)line * (remainder->all + 1)];
+    return own > 0 ? 1 / sqrt(own) : 1;
+}
+
+/* The velocity of the line ends at zero: W P = -v. */
+static void give_velocity(struct remainder *remainder, int line)
+{
+    const struct contacts_work *work = &remainder->run->contacts;
+    const int all = remainder->all;
+    const double unit = unit_of(remainder, line);
+    for (int k = 0; k < all; k++)
+        remainder->A[line * all + k] = unit * work->W[line * all + k] * unit_of(remainder, k);
+    remainder->b[line] = -unit * work->v[line];
+}
+
+/* The impulse of the line is `share` times that of line `of`. */
+static void give_impulse(struct remainder *remainder, int line, int of, double share)
+{
+    double *row = remainder->A + (ptrdiff_t)line * remainder->all;
+    row[line] += 1;
+    row[of] -= share * unit_of(remainder, of) / unit_of(remainder, line);
+}
+
+static double against(double v)
+{
+    return v > 0 ? -1 : v < 0 ? 1 : 0;
+}
+
+/* The tangential line of impact constraint i. */
+static void set_tangent(struct remainder *remainder, int i)
+{
+    const struct contacts_work *work = &remainder->run->contacts;
+    const struct impacts_point *point = &work->points[i];
+    const int line = 2 * i + 1;
+    if (!work->strikers[i].rubs || point->mu == 0)
+        give_impulse(remainder, line, 2 * i, 0);
+    else if (point->slips)
+        give_impulse(remainder, line, 2 * i, -point->slips * point->mu);
+    else if (remainder->stops[line])
+        give_velocity(remainder, line);
+    else
+        give_impulse(remainder, line, 2 * i, against(work->v[line]) * point->mu);
+}
+
+/* A slide: the impulses of all lines load its guide, whose side is that of the last load. */
+static void set_slide(struct remainder *remainder, int k)
+{
+    const struct contacts_work *work = &remainder->run->contacts;
+    const int line = 2 * remainder->count + k, all = remainder->all;
+    const double share = against(work->v[line]) * work->slide[k].mu * remainder->run->state->pull[work->slides[k]];
+    if (remainder->stops[line]) {
+        give_velocity(remainder, line);
+        return;
+    }
+    give_impulse(remainder, line, line, 0);
+    for (int j = 0; j < all; j++)
+        remainder->A[line * all + j] -= share * work->B[k * all + j] * unit_of(remainder, j) / unit_of(remainder, line);
+}
+
+static bool solve(struct remainder *remainder)
+{
+    const size_t all = (size_t)remainder->all;
+    struct qr qr = {0};
+    memset(remainder->A, 0, all * (all + 2) * sizeof(double));
+    for (int i = 0; i < remainder->count; i++) {
+        if (rests(remainder, i))
+            give_velocity(remainder, 2 * i);
+        else
+            give_impulse(remainder, 2 * i, 2 * i, 0);
+        set_tangent(remainder, i);
+    }
+    for (int k = 0; k < remainder->run->contacts.slide_count; k++) set_slide(remainder, k);
+    const bool done = qr_decompose(&qr, all, all, remainder->A, singular_value_zero);
+    if (done) qr_add_solution(&qr, remainder->b, remainder->P);
+    qr_free(&qr);
+    for (int k = 0; k < remainder->all; k++) remainder->P[k] *= unit_of(remainder, k);
+    return done;
+}
+
+static double velocity_after(const struct remainder *remainder, int line)
+{
+    const struct contacts_work *work = &remainder->run->contacts;
+    double v = work->v[line];
+    for (int k = 0; k < remainder->all; k++) v += work->W[line * remainder->all + k] * remainder->P[k];
+    return v;
+}
+
+/* Slips that the impulses would reverse stop. True when there are any. */
+static bool stop_reversed(struct remainder *remainder)
+{
+    const double *v = remainder->run->contacts.v;
+    bool any = false;
+    for (int line = 1; line < remainder->all; line += line < 2 * remainder->count - 1 ? 2 : 1) {
+        if (remainder->stops[line] || !(velocity_after(remainder, line) * v[line] < 0)) continue;
+        remainder->stops[line] = true;
+        any = true;
+    }
+    return any;
+}
+
+/* Lines that stick already. */
+static void find_stuck(struct remainder *remainder)
+{
+    const struct run *run = remainder->run;
+    for (int i = 0; i < remainder->count; i++) {
+        const struct coupling *coupling = coupling_of(remainder, i);
+        const bool sticks = coupling->pair < 0 || run->state->slip[coupling->pair] == stick;
+        remainder->stops[2 * i + 1] = sticks || run->contacts.v[2 * i + 1] == 0;
+    }
+    for (int k = 0; k < run->contacts.slide_count; k++)
+        remainder->stops[2 * remainder->count + k] = run->contacts.v[2 * remainder->count + k] == 0;
+}
+
+/* The velocities after, exactly zero where a line stops, and the impulses. */
+static void keep(const struct remainder *remainder)
+{
+    struct contacts_work *work = &remainder->run->contacts;
+    double *after = remainder->b;
+    for (int line = 0; line < remainder->all; line++) {
+        const bool normal = line < 2 * remainder->count && line % 2 == 0;
+        const bool zero = normal ? rests(remainder, line / 2) : remainder->stops[line];
+        after[line] = zero ? 0 : velocity_after(remainder, line);
+    }
+    memcpy(work->v, after, (size_t)remainder->all * sizeof *after);
+    memcpy(work->P, remainder->P, (size_t)remainder->all * sizeof *after);
+}
+
+void zeno_apply_remainder(struct run *run, int count)
+{
+    struct remainder remainder;
+    bool done = remainder_new(&remainder, run, count);
+    if (done) find_stuck(&remainder);
+    do
+        done = done && solve(&remainder);
+    while (done && stop_reversed(&remainder));
+    if (done) {
+        keep(&remainder);
+        contacts_apply_impulses(run, count);
+        for (int i = 0; i < count; i++) {
+            const ptrdiff_t line = (ptrdiff_t)2 * i;
+            run->impact_work[coupling_of(&remainder, i)->load] +=
+                striker_taken(&run->contacts.strikers[i], run->contacts.v + line, run->contacts.P + line);
+        }
+    } else {
+        run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
+    }
+    remainder_free(&remainder);
+}
