@@ -222,8 +222,8 @@ static bool any_hops(struct run *run, int count)
         double v = work->v[(ptrdiff_t)2 * i],
                a = -acceleration_of(run, striker->coupling,
                                     run->state->tree->couplings[striker->coupling].feature),
-               unseen = contacts_low * meeting_near(run->model, run->state->tree,
-                                                    tree_of(run)->couplings[striker->coupling].meeting);
+               unseen = zeno_height * meeting_near(run->model, run->state->tree,
+                                                   tree_of(run)->couplings[striker->coupling].meeting);
         if (a > 0 && v * v <= 2 * a * unseen) return true;
     }
     return false;
@@ -239,7 +239,7 @@ static double end_of_series(struct run *run, int i, int count)
         feature = run->state->tree->couplings[striker->coupling].feature;
     struct bounces *bounces = &run->contacts.bounces[index];
     double v = work->v[(ptrdiff_t)2 * i], leaving = leaving_speed(run, index, count),
-           unseen = contacts_low * meeting_near(run->model, run->state->tree, index);
+           unseen = zeno_height * meeting_near(run->model, run->state->tree, index);
     bool same = bounces->feature == feature && bounces->count > 0;
     if (bounces->is_closed) note_return(bounces, run->state->t);
     remember(bounces, run->state->t, feature);
@@ -256,7 +256,7 @@ static double end_of_series(struct run *run, int i, int count)
     if (same && v > 0) {
         left = low ? sum_of_bounces(run, index, v, a) : sum_of_intervals(bounces);
     } else if (low && !(v > 0)) {
-        bool nothing = contacts_low * leaving * leaving <= 2 * a * unseen;
+        bool nothing = zeno_height * leaving * leaving <= 2 * a * unseen;
         left = sum_of_plastic_rocking(bounces, 2 * leaving / a, nothing);
     } else {
         left = sum_of_rocking(bounces);
@@ -324,7 +324,7 @@ void zeno_end_rope_impacts(struct run *run, int count)
     is_crowd(&work->tugs, speed, unseen);
     if (leaving == 0 || !hurries(&work->tugs) || leaving * (t[0] - t[2]) > unseen) return;
     for (int i = 0; i < count; i++) work->strikers[i].stays = !work->strikers[i].contact;
-    zeno_apply_remainder(run, count);
+    zeno_apply_remaining(run, count);
 }
 
 double zeno_rope_limit(const struct run *run)
@@ -343,7 +343,7 @@ double zeno_next_rest(const struct run *run)
     return next;
 }
 
-void log_rests(struct run *run)
+void zeno_log_rests(struct run *run)
 {
     const struct tree *tree = tree_of(run);
     int count = tree ? tree->meeting_count : 0;

@@ -5,11 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "dynamics/tree_system.h"
 #include "loop/contacts.h"
 #include "loop/run.h"
 #include "numeric/qr.h"
 #include "numeric/tolerances.h"
+
+/* Sticks and remains so; slips; stops by the impulses; or slips although they reverse it. */
+enum fate { sticks, slips, stops, slips_on };
 
 /* Lines of the system: normal and tangent of each impact constraint, then the slides. */
 struct remainder {
@@ -17,7 +19,7 @@ struct remainder {
     int count, all;
     double *A; /* all x all */
     double *b, *P;
-    bool *stops; /* of each line along a surface or a guide: its velocity is or becomes zero */
+    enum fate *fate; /* of each line along a surface or a guide */
 };
 
 static bool remainder_new(struct remainder *remainder, struct run *run, int count)
@@ -26,8 +28,8 @@ static bool remainder_new(struct remainder *remainder, struct run *run, int coun
     const size_t size = (size_t)all;
     *remainder = (struct remainder){.run = run, .count = count, .all = all};
     remainder->A = calloc(size * (size + 2) + 1, sizeof(double));
-    remainder->stops = calloc(size + 1, sizeof(bool));
-    if (!remainder->A || !remainder->stops) return false;
+    remainder->fate = calloc(size + 1, sizeof *remainder->fate);
+    if (!remainder->A || !remainder->fate) return false;
     remainder->b = remainder->A + size * size;
     remainder->P = remainder->b + size;
     return true;
@@ -36,12 +38,18 @@ static bool remainder_new(struct remainder *remainder, struct run *run, int coun
 static void remainder_free(struct remainder *remainder)
 {
     free(remainder->A);
-    free(remainder->stops);
+    free(remainder->fate);
 }
 
 static const struct coupling *coupling_of(const struct remainder *remainder, int i)
 {
     return &remainder->run->model->tree->couplings[remainder->run->contacts.strikers[i].coupling];
+}
+
+/* Does the velocity along a surface or a guide end at zero? */
+static bool is_held(const struct remainder *remainder, int line)
+{
+    return remainder->fate[line] == sticks || remainder->fate[line] == stops;
 }
 
 /* Does constraint i stay closed? */
@@ -92,7 +100,7 @@ static void set_tangent(struct remainder *remainder, int i)
         give_impulse(remainder, line, 2 * i, 0);
     else if (point->slips)
         give_impulse(remainder, line, 2 * i, -point->slips * point->mu);
-    else if (remainder->stops[line])
+    else if (is_held(remainder, line))
         give_velocity(remainder, line);
     else
         give_impulse(remainder, line, 2 * i, against(work->v[line]) * point->mu);
@@ -103,14 +111,16 @@ static void set_slide(struct remainder *remainder, int k)
 {
     const struct contacts_work *work = &remainder->run->contacts;
     const int line = 2 * remainder->count + k, all = remainder->all;
-    const double share = against(work->v[line]) * work->slide[k].mu * remainder->run->state->pull[work->slides[k]];
-    if (remainder->stops[line]) {
+    const double share =
+        against(work->v[line]) * work->slide[k].mu * remainder->run->state->pull[work->slides[k]];
+    if (is_held(remainder, line)) {
         give_velocity(remainder, line);
         return;
     }
     give_impulse(remainder, line, line, 0);
     for (int j = 0; j < all; j++)
-        remainder->A[line * all + j] -= share * work->B[k * all + j] * unit_of(remainder, j) / unit_of(remainder, line);
+        remainder->A[line * all + j] -=
+            share * work->B[k * all + j] * unit_of(remainder, j) / unit_of(remainder, line);
 }
 
 static bool solve(struct remainder *remainder)
@@ -141,30 +151,45 @@ static double velocity_after(const struct remainder *remainder, int line)
     return v;
 }
 
-/* Slips that the impulses would reverse stop. True when there are any. */
+/* The friction limit of a line, and whether its impulse exceeds it. */
+static bool exceeds_limit(const struct remainder *remainder, int line)
+{
+    const struct contacts_work *work = &remainder->run->contacts;
+    const double rounding = 1e-9;
+    const int slide = line - 2 * remainder->count;
+    double load = 0;
+    if (slide < 0)
+        return fabs(remainder->P[line]) >
+               (1 + rounding) * work->points[line / 2].mu * fabs(remainder->P[line - 1]);
+    for (int k = 0; k < remainder->all; k++) load += work->B[slide * remainder->all + k] * remainder->P[k];
+    return fabs(remainder->P[line]) > (1 + rounding) * work->slide[slide].mu * fabs(load);
+}
+
+/* Slips that the impulses would reverse stop; those that friction cannot stop slip on, whatever their direction: the
+ * friction of rest ends them in a time of the order of T. True when a line has changed: twice at most. */
 static bool stop_reversed(struct remainder *remainder)
 {
     const double *v = remainder->run->contacts.v;
     bool any = false;
     for (int line = 1; line < remainder->all; line += line < 2 * remainder->count - 1 ? 2 : 1) {
-        if (remainder->stops[line] || !(velocity_after(remainder, line) * v[line] < 0)) continue;
-        remainder->stops[line] = true;
-        any = true;
+        enum fate *fate = &remainder->fate[line];
+        const enum fate before = *fate;
+        if (before == slips && velocity_after(remainder, line) * v[line] < 0) *fate = stops;
+        if (before == stops && exceeds_limit(remainder, line)) *fate = slips_on;
+        any |= *fate != before;
     }
     return any;
 }
 
-/* Lines that stick already. */
-static void find_stuck(struct remainder *remainder)
+static void find_fates(struct remainder *remainder)
 {
     const struct run *run = remainder->run;
-    for (int i = 0; i < remainder->count; i++) {
-        const struct coupling *coupling = coupling_of(remainder, i);
-        const bool sticks = coupling->pair < 0 || run->state->slip[coupling->pair] == stick;
-        remainder->stops[2 * i + 1] = sticks || run->contacts.v[2 * i + 1] == 0;
+    const double *v = run->contacts.v;
+    for (int line = 1; line < remainder->all; line += line < 2 * remainder->count - 1 ? 2 : 1) {
+        const int pair = line < 2 * remainder->count ? coupling_of(remainder, line / 2)->pair
+                                                     : run->contacts.slides[line - 2 * remainder->count];
+        remainder->fate[line] = v[line] == 0 || pair < 0 || run->state->slip[pair] == stick ? sticks : slips;
     }
-    for (int k = 0; k < run->contacts.slide_count; k++)
-        remainder->stops[2 * remainder->count + k] = run->contacts.v[2 * remainder->count + k] == 0;
 }
 
 /* The velocities after, exactly zero where a line stops, and the impulses. */
@@ -174,20 +199,19 @@ static void keep(const struct remainder *remainder)
     double *after = remainder->b;
     for (int line = 0; line < remainder->all; line++) {
         const bool normal = line < 2 * remainder->count && line % 2 == 0;
-        const bool zero = normal ? rests(remainder, line / 2) : remainder->stops[line];
+        const bool zero = normal ? rests(remainder, line / 2) : is_held(remainder, line);
         after[line] = zero ? 0 : velocity_after(remainder, line);
     }
     memcpy(work->v, after, (size_t)remainder->all * sizeof *after);
     memcpy(work->P, remainder->P, (size_t)remainder->all * sizeof *after);
 }
 
-void zeno_apply_remainder(struct run *run, int count)
+void zeno_apply_remaining(struct run *run, int count)
 {
     struct remainder remainder;
     bool done = remainder_new(&remainder, run, count);
-    if (done) find_stuck(&remainder);
-    do
-        done = done && solve(&remainder);
+    if (done) find_fates(&remainder);
+    do done = done && solve(&remainder);
     while (done && stop_reversed(&remainder));
     if (done) {
         keep(&remainder);
