@@ -10,7 +10,7 @@
 #include "numeric/qr.h"
 #include "numeric/tolerances.h"
 
-/* Sticks and remains so; slips; stops by the impulses; or slips although they reverse it. */
+/* Sticks and remains so; slips; stops by the impulses; or slips whatever they do. */
 enum fate { sticks, slips, stops, slips_on };
 
 /* Lines of the system: normal and tangent of each impact constraint, then the slides. */
@@ -44,6 +44,11 @@ static void remainder_free(struct remainder *remainder)
 static const struct coupling *coupling_of(const struct remainder *remainder, int i)
 {
     return &remainder->run->model->tree->couplings[remainder->run->contacts.strikers[i].coupling];
+}
+
+static bool is_normal(const struct remainder *remainder, int line)
+{
+    return line < 2 * remainder->count && line % 2 == 0;
 }
 
 /* Does the velocity along a surface or a guide end at zero? */
@@ -151,7 +156,7 @@ static double velocity_after(const struct remainder *remainder, int line)
     return v;
 }
 
-/* The friction limit of a line, and whether its impulse exceeds it. */
+/* Is the impulse along a surface or a guide more than its friction can be? */
 static bool exceeds_limit(const struct remainder *remainder, int line)
 {
     const struct contacts_work *work = &remainder->run->contacts;
@@ -171,7 +176,8 @@ static bool stop_reversed(struct remainder *remainder)
 {
     const double *v = remainder->run->contacts.v;
     bool any = false;
-    for (int line = 1; line < remainder->all; line += line < 2 * remainder->count - 1 ? 2 : 1) {
+    for (int line = 0; line < remainder->all; line++) {
+        if (is_normal(remainder, line)) continue;
         enum fate *fate = &remainder->fate[line];
         const enum fate before = *fate;
         if (before == slips && velocity_after(remainder, line) * v[line] < 0) *fate = stops;
@@ -181,15 +187,16 @@ static bool stop_reversed(struct remainder *remainder)
     return any;
 }
 
-static void find_fates(struct remainder *remainder)
+/* The tangent of a point without friction, or that no impulse moves, slips on. */
+static enum fate fate_of(const struct remainder *remainder, int line)
 {
-    const struct run *run = remainder->run;
-    const double *v = run->contacts.v;
-    for (int line = 1; line < remainder->all; line += line < 2 * remainder->count - 1 ? 2 : 1) {
-        const int pair = line < 2 * remainder->count ? coupling_of(remainder, line / 2)->pair
-                                                     : run->contacts.slides[line - 2 * remainder->count];
-        remainder->fate[line] = v[line] == 0 || pair < 0 || run->state->slip[pair] == stick ? sticks : slips;
-    }
+    const struct contacts_work *work = &remainder->run->contacts;
+    const bool slide = line >= 2 * remainder->count;
+    const struct impacts_point *point = slide ? NULL : &work->points[line / 2];
+    const int pair =
+        slide ? work->slides[line - 2 * remainder->count] : coupling_of(remainder, line / 2)->pair;
+    if (point && (point->mu == 0 || point->slips)) return slips_on;
+    return work->v[line] == 0 || pair < 0 || remainder->run->state->slip[pair] == stick ? sticks : slips;
 }
 
 /* The velocities after, exactly zero where a line stops, and the impulses. */
@@ -198,8 +205,7 @@ static void keep(const struct remainder *remainder)
     struct contacts_work *work = &remainder->run->contacts;
     double *after = remainder->b;
     for (int line = 0; line < remainder->all; line++) {
-        const bool normal = line < 2 * remainder->count && line % 2 == 0;
-        const bool zero = normal ? rests(remainder, line / 2) : is_held(remainder, line);
+        const bool zero = is_normal(remainder, line) ? rests(remainder, line / 2) : is_held(remainder, line);
         after[line] = zero ? 0 : velocity_after(remainder, line);
     }
     memcpy(work->v, after, (size_t)remainder->all * sizeof *after);
@@ -210,7 +216,8 @@ void zeno_apply_remaining(struct run *run, int count)
 {
     struct remainder remainder;
     bool done = remainder_new(&remainder, run, count);
-    if (done) find_fates(&remainder);
+    for (int line = 0; done && line < remainder.all; line++)
+        if (!is_normal(&remainder, line)) remainder.fate[line] = fate_of(&remainder, line);
     do done = done && solve(&remainder);
     while (done && stop_reversed(&remainder));
     if (done) {

@@ -135,7 +135,7 @@ static void compare_body(struct checks *checks, const struct belt *belt, int i, 
 {
     static const char *const names[] = {"x", "y", "vx", "vy", "theta", "omega"};
     /* Impacts multiply the errors of a tolerance of 1e-11. */
-    const double same = 1e-8;
+    const double same = 1e-7;
     const double t = belt->until, c = cos(belt->angle), s = sin(belt->angle);
     const double way = belt->s * t + belt->a / belt->w * (1 - cos(belt->w * t));
     const double speed = belt->s + belt->a * sin(belt->w * t);
