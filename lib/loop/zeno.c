@@ -324,7 +324,7 @@ void zeno_end_rope_impacts(struct run *run, int count)
     is_crowd(&work->tugs, speed, unseen);
     if (leaving == 0 || !hurries(&work->tugs) || leaving * (t[0] - t[2]) > unseen) return;
     for (int i = 0; i < count; i++) work->strikers[i].stays = !work->strikers[i].contact;
-    zeno_apply_remaining(run, count);
+    zeno_apply_remaining(run, count, 0);
 }
 
 double zeno_rope_limit(const struct run *run)

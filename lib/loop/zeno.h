@@ -74,8 +74,8 @@ int zeno_rest(struct run *run);
 bool zeno_lift_others(struct run *run);
 
 /* Apply the remaining impulses of the first `count` impact constraints: of all that do not separate, and of those that
- * `stays` marks. contacts_find_responses was called, or contacts_strike. */
-void zeno_apply_remaining(struct run *run, int count);
+ * `stays` marks; rest takes the speed `slow` in that time. contacts_find_responses was called, or contacts_strike. */
+void zeno_apply_remaining(struct run *run, int count, double slow);
 
 /* A rope became taut, or a contact landed, and opened others by it, which do the same alternately: as soon as
  * one opens by less than the tolerance all stay closed. */

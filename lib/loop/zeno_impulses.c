@@ -5,12 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dynamics/tree_system.h"
 #include "loop/contacts.h"
 #include "loop/run.h"
 #include "numeric/qr.h"
 #include "numeric/tolerances.h"
 
-/* Sticks and remains so; slips; stops by the impulses; or slips whatever they do. */
+/* Sticks without a limit; slips; stops, or remains at rest; or slips whatever the impulses do. */
 enum fate { sticks, slips, stops, slips_on };
 
 /* Lines of the system: normal and tangent of each impact constraint, then the slides. */
@@ -19,14 +20,15 @@ struct remainder {
     int count, all;
     double *A; /* all x all */
     double *b, *P;
+    double slow;     /* the speed that rest takes from a body in the time of the series */
     enum fate *fate; /* of each line along a surface or a guide */
 };
 
-static bool remainder_new(struct remainder *remainder, struct run *run, int count)
+static bool remainder_new(struct remainder *remainder, struct run *run, int count, double slow)
 {
     const int all = 2 * count + run->contacts.slide_count;
     const size_t size = (size_t)all;
-    *remainder = (struct remainder){.run = run, .count = count, .all = all};
+    *remainder = (struct remainder){.run = run, .count = count, .all = all, .slow = slow};
     remainder->A = calloc(size * (size + 2) + 1, sizeof(double));
     remainder->fate = calloc(size + 1, sizeof *remainder->fate);
     if (!remainder->A || !remainder->fate) return false;
@@ -156,31 +158,37 @@ static double velocity_after(const struct remainder *remainder, int line)
     return v;
 }
 
-/* Is the impulse along a surface or a guide more than its friction can be? */
+static double response_of(const struct remainder *remainder, int line)
+{
+    return remainder->run->contacts.W[(ptrdiff_t)line * (remainder->all + 1)];
+}
+
+/* Is the impulse along a surface or a guide more than its friction can be? That of rest is about N T = slow/W; bodies that
+ * lean on each other, or a body that jams, would need far more. */
 static bool exceeds_limit(const struct remainder *remainder, int line)
 {
     const struct contacts_work *work = &remainder->run->contacts;
-    const double rounding = 1e-9;
+    const double many = 64;
     const int slide = line - 2 * remainder->count;
+    const double P = fabs(remainder->P[line]), rest = many * remainder->slow / response_of(remainder, line);
     double load = 0;
-    if (slide < 0)
-        return fabs(remainder->P[line]) >
-               (1 + rounding) * work->points[line / 2].mu * fabs(remainder->P[line - 1]);
+    if (slide < 0) return P > work->points[line / 2].mu * fabs(remainder->P[line - 1]) + rest;
     for (int k = 0; k < remainder->all; k++) load += work->B[slide * remainder->all + k] * remainder->P[k];
-    return fabs(remainder->P[line]) > (1 + rounding) * work->slide[slide].mu * fabs(load);
+    return P > work->slide[slide].mu * fabs(load) + rest;
 }
 
 /* Slips that the impulses would reverse stop; those that friction cannot stop slip on, whatever their direction: the
  * friction of rest ends them in a time of the order of T. True when a line has changed: twice at most. */
-static bool stop_reversed(struct remainder *remainder)
+static bool stop_slips(struct remainder *remainder)
 {
-    const double *v = remainder->run->contacts.v;
+    const double *v = remainder->run->contacts.v, hardly = 1e-3;
     bool any = false;
     for (int line = 0; line < remainder->all; line++) {
         if (is_normal(remainder, line)) continue;
         enum fate *fate = &remainder->fate[line];
         const enum fate before = *fate;
-        if (before == slips && velocity_after(remainder, line) * v[line] < 0) *fate = stops;
+        const double after = velocity_after(remainder, line);
+        if (before == slips && (after * v[line] < 0 || fabs(after) <= hardly * remainder->slow)) *fate = stops;
         if (before == stops && exceeds_limit(remainder, line)) *fate = slips_on;
         any |= *fate != before;
     }
@@ -196,7 +204,8 @@ static enum fate fate_of(const struct remainder *remainder, int line)
     const int pair =
         slide ? work->slides[line - 2 * remainder->count] : coupling_of(remainder, line / 2)->pair;
     if (point && (point->mu == 0 || point->slips)) return slips_on;
-    return work->v[line] == 0 || pair < 0 || remainder->run->state->slip[pair] == stick ? sticks : slips;
+    if (pair < 0) return sticks;
+    return work->v[line] == 0 || remainder->run->state->slip[pair] == stick ? stops : slips;
 }
 
 /* The velocities after, exactly zero where a line stops, and the impulses. */
@@ -212,17 +221,31 @@ static void keep(const struct remainder *remainder)
     memcpy(work->P, remainder->P, (size_t)remainder->all * sizeof *after);
 }
 
-void zeno_apply_remaining(struct run *run, int count)
+/* Points that stop stick from here on. */
+static void stick_stopped(const struct remainder *remainder)
+{
+    struct run *run = remainder->run;
+    for (int i = 0; i < remainder->count; i++) {
+        const int pair = coupling_of(remainder, i)->pair;
+        const bool held = run->contacts.strikers[i].contact && is_held(remainder, 2 * i + 1);
+        if (pair < 0 || !held || run->state->slip[pair] == stick) continue;
+        coupling_rezero(run->model, run->state->tree, run->contacts.strikers[i].coupling);
+        run->state->slip[pair] = stick;
+    }
+}
+
+void zeno_apply_remaining(struct run *run, int count, double slow)
 {
     struct remainder remainder;
-    bool done = remainder_new(&remainder, run, count);
+    bool done = remainder_new(&remainder, run, count, slow);
     for (int line = 0; done && line < remainder.all; line++)
         if (!is_normal(&remainder, line)) remainder.fate[line] = fate_of(&remainder, line);
     do done = done && solve(&remainder);
-    while (done && stop_reversed(&remainder));
+    while (done && stop_slips(&remainder));
     if (done) {
         keep(&remainder);
         contacts_apply_impulses(run, count);
+        stick_stopped(&remainder);
         for (int i = 0; i < count; i++) {
             const ptrdiff_t line = (ptrdiff_t)2 * i;
             run->impact_work[coupling_of(&remainder, i)->load] +=

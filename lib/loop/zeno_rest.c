@@ -56,6 +56,17 @@ static void let_part(struct run *run, double slow)
     }
 }
 
+/* Is the slip so slow that friction ends it within the position tolerance, as the remaining impacts would? */
+static bool stops_at_once(const struct run *run, int index, double slow)
+{
+    const struct coupling *coupling = &tree_of(run)->couplings[index];
+    const struct instant at = state_instant(run->state);
+    if (run->state->tree->couplings[index].feature == no_feature) return false;
+    double mu = formula_value(&run->model->plan.modes[coupling->pair].mu_k, &at);
+    double v_t = run->state->tree->rows[coupling->first_row + 1].g.x1;
+    return v_t * v_t <= fmin(mu, 1) * slow * slow;
+}
+
 /* The largest change of speed of a shape from one state to the other. */
 static double speed_between(const struct run *run, const struct tree_work *before,
                             const struct tree_work *after)
@@ -214,7 +225,7 @@ static void open_others(struct run *run, const bool *was_touching)
 }
 
 /* Close the touching contacts; for contact pairs with a summed series within `share` of the touching
- * tolerance. Newly closed contacts slip; sticking ones stick on. */
+ * tolerance. */
 static void close_within(struct run *run, double share)
 {
     const struct tree *tree = tree_of(run);
@@ -224,11 +235,16 @@ static void close_within(struct run *run, double share)
         contacts_find_touching(run, i, work->bounces[i].rests_from < HUGE_VAL ? share * near : near);
     }
     impulse_look(run->state);
-    let_part(run, slow_speed(run));
+    double slow = slow_speed(run);
+    let_part(run, slow);
     for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
         if (coupling->kind != constraint_contact || coupling->pair < 0) continue;
+        /* Newly closed contacts slip; sticking ones stick on. */
         if (!work->touching[i]) run->state->slip[coupling->pair] = slip_plus;
+        if (run->state->slip[coupling->pair] == stick || !stops_at_once(run, i, slow)) continue;
+        coupling_rezero(run->model, run->state->tree, i);
+        run->state->slip[coupling->pair] = stick;
     }
 }
 
@@ -247,7 +263,7 @@ static int stop_closed(struct run *run)
     int count = contacts_find_strikers(run);
     for (int i = 0; i < count; i++) run->contacts.strikers[i].stays = true;
     if (!contacts_find_responses(run, count)) return count;
-    zeno_apply_remaining(run, count);
+    zeno_apply_remaining(run, count, slow_speed(run));
     state_project_velocity(run->state, false);
     impulse_look(run->state);
     return contacts_find_strikers(run);
