@@ -22,7 +22,7 @@
  * A switch of positions, u(x), has the same u' on both sides. Its sliding mode is of second order, u = 0 and
  * u' = 0, with the weight for which u'' = 0: the surface is w = u' = g v with a constant g, beside u = 0.
  * There sign(v) and sign(x) are of one unit. A motion reaches such a mode by infinitely many crossings in a
- * finite time (loop/zeno_switch.h), or starts in it.
+ * finite time (loop/zeno.h), or starts in it.
  */
 #ifndef FBD_DYNAMICS_SLIDING_H
 #define FBD_DYNAMICS_SLIDING_H
@@ -51,7 +51,7 @@ struct sliding {
     int *branches;   /* plan.branches: scratch of formulas */
     bool *keep;      /* plan.branches: not to be resolved by values while modes are settled */
     bool *left;      /* plan.branches: its weight has just reached an end */
-    bool *ended;     /* plan.branches: the remaining crossings are negligible (loop/zeno_switch.h) */
+    bool *ended;     /* plan.branches: the remaining crossings are negligible (loop/zeno.h) */
     int *aside;      /* plan.mode_count: side of friction that slips while a switch holds; else 0 */
     bool *slips;     /* plan.mode_count: scratch for `slips` of struct decided */
     int *held;       /* units: slot of the friction that holds its coordinate; not_held; all_held: several */

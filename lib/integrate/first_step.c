@@ -91,6 +91,7 @@ int first_step(struct counted_system *system, const struct layout *layout, const
     tau = fmin(fmax(tau, probe), change);
     double part = pow(0.01 * error_norm_tolerance(control), 1.0 / (order + 1));
     *h = fmin(h_max, 100 * probe);
-    if (tau < INFINITY) *h = fmin(*h, tau * part);
+    /* Slopes that are round-off, as of a box that has come to rest, change at once: not below the resolution of t. */
+    if (tau < INFINITY) *h = fmin(*h, fmax(tau * part, round_off(time_roundings, fabs(t))));
     return GSL_SUCCESS;
 }

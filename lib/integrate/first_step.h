@@ -15,7 +15,8 @@
  * and likewise with (x, x', change of x') for other components. If derivatives grow like S / tau^k, the local
  * error of a method of order p is S (h / tau)^(p+1), which should be 0.01 tolerance S:
  *
- *     h = min(tau_1, tau_2) (0.01 tolerance)^(1 / (p+1)),   at most h_max and 100 Euler steps.
+ *     h = min(tau_1, tau_2) (0.01 tolerance)^(1 / (p+1)),   at most h_max and 100 Euler steps,
+ *                                                           and at least the resolution of t.
  *
  * v^2 / |a| in L is for a body that leaves the origin: a coordinate near zero by accident is not a short
  * distance. If all of these are zero, the Euler step is h_max / 1000.

@@ -15,7 +15,7 @@
 #include "dynamics/tree.h"
 #include "loop/run.h"
 #include "loop/switch_event.h"
-#include "loop/zeno_switch.h"
+#include "loop/zeno.h"
 #include "rest/start.h"
 
 /* ---- events by kind */

@@ -196,8 +196,9 @@ static void note_impact(struct run *run, int i, int count)
     const struct coupling *coupling = &tree_of(run)->couplings[striker->coupling];
     const double *v = work->v + (ptrdiff_t)2 * i, *own = work->P + (ptrdiff_t)2 * i;
     double p = 0, tau = 0, taken = 0;
-    run->impact_work[coupling->load] += striker_taken(striker, v, own);
-    if (!striker->contact) add_to_coupling(work, striker, v, own, striker_taken(striker, v, own));
+    const double done = striker_taken(striker, v, own);
+    run->impact_work[coupling->load] += done;
+    if (!striker->contact) add_to_coupling(work, striker, v, own, done);
     if (!is_impact(run, i)) return;
     for (int k = 0; k < count; k++) {
         if (!strike_alike(run, i, k)) continue;
@@ -387,7 +388,7 @@ static bool look_at_contacts(struct run *run)
     contacts_open_or_close(run, count, struck);
     if (struck) contacts_hold_speeds(run, count);
     if (rests) {
-        count = zeno_rest(run, count);
+        count = zeno_rest(run);
         contacts_open_or_close(run, count, true);
         moved = zeno_lift_others(run);
     }

@@ -5,35 +5,17 @@
  * At an impact all touching features are determined anew. If one closes, all touching contacts and all taut
  * ropes have an impact together (holds/impacts.h); those with no separation speed stay closed, the others
  * open. Contacts closed without an impact are left to the settling of the modes.
- *
- * A body that bounces with e < 1 does so infinitely often in finite time. When its bounces are lower than the
- * tolerance, the rest of the series is summed: the intervals form a geometric series, exactly so with
- * constant acceleration. The body then rests on its surface; the event has the time of the Zeno limit. The
- * same is done for a body that lands plastically and is lifted again by a rope that becomes taut, as in
- * Atwood's machine on the floor: at the limit the surface and the rope are both closed.
+ * Infinitely many impacts in finite time: loop/zeno.h.
  */
 #ifndef FBD_LOOP_CONTACTS_H
 #define FBD_LOOP_CONTACTS_H
 
 #include "dynamics/state.h"
 #include "holds/impacts.h"
+#include "loop/zeno.h"
 
 struct lack;
 struct run;
-
-/* The recent impacts of a contact pair. */
-struct bounces {
-    int count;         /* since it was last at rest */
-    double t[5];       /* times of the last ones, the latest first */
-    int feature;       /* of the last one */
-    int unseen;        /* number of successive ones with bounces below the tolerance */
-    double slow;       /* a speed whose bounce stays within the tolerance of position */
-    double rests_from; /* Zeno limit of a summed series; HUGE_VAL without one */
-    /* Impacts of a contact that was closed before and is reopened by ropes: their times, the latest first. */
-    bool is_closed;
-    int returns;
-    double returned[12];
-};
 
 /* An impact constraint: a contact, a rope, a rolling or cam coupling. */
 struct striker {
@@ -44,7 +26,7 @@ struct striker {
     double v_n, v_t; /* before */
     double reel;     /* of a rope: the prescribed rate of its length */
     double surface;  /* the speed of its surface, relative to which v_t is */
-    bool stays;      /* no contact; opened with a speed so small that it stays closed (zeno.c) */
+    bool stays;      /* it stays closed, whatever its speed (zeno.h) */
 };
 
 /* A contact that coincides with another one, of the same two links and with the same normal: a corner shared
@@ -135,10 +117,6 @@ void run_strike_closed(struct run *run);
 /* A moving drive, and the number of moving drives. */
 const struct mode *run_only_drive(const struct run *run, int *moving);
 
-/* A body placed on its surface by zeno_rest may overlap neighbouring ones, the deeper the farther they are
- * from its axis of rotation: move these out. Returns whether there were any, which may now touch. */
-bool zeno_lift_others(struct run *run);
-
 /* Record the overlap of shapes with open contacts: within the touching tolerance, where a corner passes the
  * end of a side. */
 void contacts_note_depths(struct run *run);
@@ -166,9 +144,6 @@ static const double contacts_late = 1e3;
 /* Distance of positions that coincide, likewise: each has that accuracy. */
 static const double contacts_same = 4;
 
-/* Height of bounces below the tolerance, likewise: 1e-9 of the scene. */
-enum { contacts_low = 1000 };
-
 /* Apply the impact of the first `count` impact constraints; work->v receives their velocities after it,
  * work->P its impulses. Returns false after failing the run. (contacts_strike.c) */
 bool contacts_strike(struct run *run, int count);
@@ -188,13 +163,6 @@ bool contacts_part(const struct run *run, int i);
  * ones, without an impact); let the others slip or stick. */
 void contacts_open_or_close(struct run *run, int count, bool struck);
 
-/* A rope became taut, or a contact landed, and opened others by it, which do the same alternately: as soon as
- * one opens by less than the tolerance all stay closed. */
-void zeno_end_rope_impacts(struct run *run, int count);
-
-/* The interval between the last two of many successive such impacts below the tolerance; 0 otherwise. */
-double zeno_rope_limit(const struct run *run);
-
 /* The touching tolerance [m, or radians of a stop]; shapes that overlap by a little more, detected late,
  * touch as well. */
 double contacts_reach(const struct run *run, int index);
@@ -208,29 +176,13 @@ int contacts_find_strikers(struct run *run);
 /* Coefficient of restitution of a contact pair at a speed of approach; below zero after failing the run. */
 double contacts_restitution(struct run *run, int meeting, double approach);
 
-/* After an impact of `count` impact constraints: has a sequence of bounces become smaller than the tolerance?
- * (zeno.c) */
-bool zeno_end_bounces(struct run *run, int count);
-
-/* Remove separation speeds of surfaces and ropes by impulses, with the friction that the weight would have
- * caused: resting bodies exert m a T in the time T of the series, and so do bouncing ones but for m v. */
-void zeno_remove_separation(struct run *run, int count);
-
-/* Place bouncing bodies on their surfaces (zeno_rest.c); the impact constraints are then the touching
- * contacts. Returns their number. */
-int zeno_rest(struct run *run, int strikers);
-
-/* Would that change the speed of each body by no more than bounces below the tolerance do? */
-bool zeno_rest_is_harmless(struct run *run, int count);
+/* Find the responses of the impact constraints, with their velocities before. False after failing the run. */
+bool contacts_find_responses(struct run *run, int count);
 
 /* ---- called by the loop */
 
 /* After the modes have settled: contacts that they opened touch no longer. Records which have closed and
  * opened. */
 void run_release_contacts(struct run *run);
-
-/* The next Zeno limit of a sequence of bounces; HUGE_VAL without one. log_rests logs those that are over. */
-double zeno_next_rest(const struct run *run);
-void log_rests(struct run *run);
 
 #endif

@@ -372,7 +372,7 @@ static void fail_impact(struct run *run, enum impacts_end end, enum impact_law l
         run_fail(run, FBD_FAILED, "at t = %.9g impacts at several points %s", run_time(run), what[end]);
 }
 
-bool contacts_solve_impact(struct run *run, int count)
+bool contacts_find_responses(struct run *run, int count)
 {
     struct contacts_work *work = &run->contacts;
     for (int i = 0; i < count; i++) {
@@ -382,6 +382,13 @@ bool contacts_solve_impact(struct run *run, int count)
         v[1] = work->strikers[i].v_t;
     }
     set_answers(run, count);
+    return true;
+}
+
+bool contacts_solve_impact(struct run *run, int count)
+{
+    struct contacts_work *work = &run->contacts;
+    if (!contacts_find_responses(run, count)) return false;
     struct impacts impacts = {.count = count,
                               .propagate = run->model->scene->simulate.propagate && !work->plastic,
                               .points = work->points,

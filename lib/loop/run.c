@@ -441,7 +441,7 @@ static void end_step(struct run *run, const struct turn *turn)
     bool at_end = turn->t.t >= run->options.until;
     if (!run->plain) {
         run_check_friction(run);
-        log_rests(run);
+        zeno_log_rests(run);
         zeno_switch_log(run);
     }
     if (at_end) {

@@ -31,7 +31,7 @@
 #include "loop/contacts.h"
 #include "loop/energy_guard.h"
 #include "loop/structure.h"
-#include "loop/zeno_switch.h"
+#include "loop/zeno.h"
 
 struct run_options {
     double until;

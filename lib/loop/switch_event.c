@@ -8,7 +8,7 @@
 #include "dynamics/kinematics.h"
 #include "dynamics/rest_system.h"
 #include "expr/table.h"
-#include "loop/zeno_switch.h"
+#include "loop/zeno.h"
 #include "rest/start.h"
 
 /* Switches between the pieces of a curve belong to its body, and to no load. */

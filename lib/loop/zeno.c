@@ -7,12 +7,10 @@
 #include <string.h>
 
 #include "dynamics/contact.h"
-#include "dynamics/energy.h"
 #include "dynamics/impulse.h"
 #include "dynamics/tree_system.h"
 #include "loop/contacts.h"
 #include "loop/run.h"
-#include "numeric/lu.h"
 
 /* Speeds after an impact below this share of those before it are rounding. */
 static const double leaving_rounding = 1e-9;
@@ -224,8 +222,8 @@ static bool any_hops(struct run *run, int count)
         double v = work->v[(ptrdiff_t)2 * i],
                a = -acceleration_of(run, striker->coupling,
                                     run->state->tree->couplings[striker->coupling].feature),
-               unseen = contacts_low * meeting_near(run->model, run->state->tree,
-                                                    tree_of(run)->couplings[striker->coupling].meeting);
+               unseen = zeno_height * meeting_near(run->model, run->state->tree,
+                                                   tree_of(run)->couplings[striker->coupling].meeting);
         if (a > 0 && v * v <= 2 * a * unseen) return true;
     }
     return false;
@@ -241,7 +239,7 @@ static double end_of_series(struct run *run, int i, int count)
         feature = run->state->tree->couplings[striker->coupling].feature;
     struct bounces *bounces = &run->contacts.bounces[index];
     double v = work->v[(ptrdiff_t)2 * i], leaving = leaving_speed(run, index, count),
-           unseen = contacts_low * meeting_near(run->model, run->state->tree, index);
+           unseen = zeno_height * meeting_near(run->model, run->state->tree, index);
     bool same = bounces->feature == feature && bounces->count > 0;
     if (bounces->is_closed) note_return(bounces, run->state->t);
     remember(bounces, run->state->t, feature);
@@ -258,7 +256,7 @@ static double end_of_series(struct run *run, int i, int count)
     if (same && v > 0) {
         left = low ? sum_of_bounces(run, index, v, a) : sum_of_intervals(bounces);
     } else if (low && !(v > 0)) {
-        bool nothing = contacts_low * leaving * leaving <= 2 * a * unseen;
+        bool nothing = zeno_height * leaving * leaving <= 2 * a * unseen;
         left = sum_of_plastic_rocking(bounces, 2 * leaving / a, nothing);
     } else {
         left = sum_of_rocking(bounces);
@@ -296,50 +294,6 @@ bool zeno_end_bounces(struct run *run, int count)
     return false;
 }
 
-/* Friction -mu p sign(v_t) of a slipping contact; sticking uses another row. */
-static double rubbing(const struct contacts_work *work, int i)
-{
-    if (!work->strikers[i].rubs) return 0;
-    double v_t = work->v[(ptrdiff_t)2 * i + 1];
-    return v_t > 0 ? -work->points[i].mu : v_t < 0 ? work->points[i].mu : 0;
-}
-
-static bool leaves_for_the_last_time(const struct run *run, int i)
-{
-    const struct contacts_work *work = &run->contacts;
-    if (!work->strikers[i].contact) return work->strikers[i].stays; /* closed ropes, too */
-    if (!(work->v[(ptrdiff_t)2 * i] > 0)) return false;
-    return work->bounces[tree_of(run)->couplings[work->strikers[i].coupling].meeting].rests_from < HUGE_VAL;
-}
-
-void zeno_remove_separation(struct run *run, int count)
-{
-    struct contacts_work *work = &run->contacts;
-    size_t n = (size_t)run->model->plan.n, size = 0, all = 2 * (size_t)count + (size_t)work->slide_count;
-    size_t *which = calloc(2 * (size_t)count + 1, sizeof *which), *pivot = which ? which + count : NULL;
-    for (int i = 0; which && i < count; i++)
-        if (leaves_for_the_last_time(run, i)) which[size++] = (size_t)i;
-    double *A = size > 0 ? calloc(size * size + size, sizeof *A) : NULL, *P = A ? A + size * size : NULL;
-    for (size_t i = 0; A && i < size; i++) {
-        const double *row = work->W + 2 * which[i] * all;
-        P[i] = -work->v[2 * which[i]];
-        for (size_t j = 0; j < size; j++)
-            A[i * size + j] = row[2 * which[j]] + rubbing(work, (int)which[j]) * row[2 * which[j] + 1];
-    }
-    if (A && lu_decompose(size, A, pivot)) {
-        lu_solve(size, A, pivot, P);
-        for (size_t i = 0; i < size; i++) {
-            const double *answer = work->answers + 2 * which[i] * n;
-            double f = rubbing(work, (int)which[i]), sign = work->strikers[which[i]].rope ? -1 : 1;
-            for (size_t k = 0; k < n; k++)
-                run->state->y[n + k] += P[i] * (sign * answer[k] + f * answer[n + k]);
-        }
-    }
-    if (!which || (size > 0 && !A)) run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
-    free(A);
-    free(which);
-}
-
 /* The opening below which a constraint stays closed. */
 static double unseen_of(const struct run *run, const struct striker *striker)
 {
@@ -369,11 +323,8 @@ void zeno_end_rope_impacts(struct run *run, int count)
     for (int i = 0; i < count; i++) speed = fmax(speed, -work->strikers[i].v_n);
     is_crowd(&work->tugs, speed, unseen);
     if (leaving == 0 || !hurries(&work->tugs) || leaving * (t[0] - t[2]) > unseen) return;
-    double before = total_kinetic_energy(run->state);
     for (int i = 0; i < count; i++) work->strikers[i].stays = !work->strikers[i].contact;
-    zeno_remove_separation(run, count);
-    run->impact_work[tree_of(run)->couplings[work->strikers[0].coupling].load] +=
-        total_kinetic_energy(run->state) - before;
+    zeno_apply_remaining(run, count, 0);
 }
 
 double zeno_rope_limit(const struct run *run)
@@ -392,7 +343,7 @@ double zeno_next_rest(const struct run *run)
     return next;
 }
 
-void log_rests(struct run *run)
+void zeno_log_rests(struct run *run)
 {
     const struct tree *tree = tree_of(run);
     int count = tree ? tree->meeting_count : 0;

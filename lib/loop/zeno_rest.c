@@ -15,7 +15,7 @@
 
 /* Height within which corners are closed, in units of touching; and factor for displacements farther from the
  * axis of rotation. */
-static const double wide = 2 * contacts_low, levers = 8;
+static const double wide = 2 * zeno_height, levers = 8;
 
 static const struct tree *tree_of(const struct run *run)
 {
@@ -193,7 +193,7 @@ static void move_along(struct run *run)
 /* Project shapes onto their surfaces; with `all` also their velocities. Returns false, with the state
  * restored, when that moves any shape far, such as a body leaning flat on another while the feet of both
  * stick. */
-static bool move_a_little(struct run *run, bool all)
+static bool move_a_little(struct run *run)
 {
     struct fbd_state *state = run->state, *before = run->contacts.trial;
     double near = 0;
@@ -204,8 +204,6 @@ static bool move_a_little(struct run *run, bool all)
     state_project_position(state);
     impulse_look(state);
     if (is_deep(run)) move_along(run);
-    if (all) state_project_velocity(state, false);
-    impulse_look(state);
     bool little = way_since(run, before->tree) <= levers * wide * near;
     if (!little) {
         state_copy(state, before);
@@ -259,28 +257,35 @@ static void book_place(struct run *run, int meeting, double before)
     run->energy.lowered += change;
 }
 
-/* Place bodies with bounces below the tolerance on their surfaces and remove their separation speed: the rest
- * of the series has the same effect, and its impulses are those of the weight in that time. */
-int zeno_rest(struct run *run, int strikers)
+/* Stop all closed constraints. */
+static int stop_closed(struct run *run)
+{
+    int count = contacts_find_strikers(run);
+    for (int i = 0; i < count; i++) run->contacts.strikers[i].stays = true;
+    if (!contacts_find_responses(run, count)) return count;
+    zeno_apply_remaining(run, count, slow_speed(run));
+    state_project_velocity(run->state, false);
+    impulse_look(run->state);
+    return contacts_find_strikers(run);
+}
+
+/* Place bodies with bounces below the tolerance on their surfaces and stop them by the impulses of the rest of the series. */
+int zeno_rest(struct run *run)
 {
     const struct tree *tree = tree_of(run);
     struct contacts_work *work = &run->contacts;
     bool *was_touching = work->touching;
-    double before = total_kinetic_energy(run->state), above = energy_of_place(run);
-    zeno_remove_separation(run, strikers);
+    double above = energy_of_place(run);
     for (int i = 0; i < tree->coupling_count; i++)
         was_touching[i] = run->state->tree->couplings[i].feature != no_feature;
     close_within(run, wide);
-    if (!move_a_little(run, true)) {
+    if (!move_a_little(run)) {
         open_others(run, was_touching); /* farther ones land later */
         close_within(run, 1);
-        if (!move_a_little(run, true)) state_project_velocity(run->state, false);
+        move_a_little(run);
     }
-    impulse_look(run->state);
-    int count = contacts_find_strikers(run), last = last_at_rest(run);
-    run->impact_work[tree->couplings[tree->meetings[last].first_coupling].load] +=
-        total_kinetic_energy(run->state) - before;
-    book_place(run, last, above);
+    book_place(run, last_at_rest(run), above);
+    int count = stop_closed(run);
     for (int i = 0; i < count; i++) {
         double *v = work->v + (ptrdiff_t)2 * i;
         v[0] = 0;
@@ -316,7 +321,7 @@ bool zeno_lift_others(struct run *run)
     for (int round = 0; round < most_rounds; round++) {
         int deep = find_deep(run);
         double below = deep >= 0 ? energy_of_place(run) : 0;
-        if (deep < 0 || !move_a_little(run, false)) break;
+        if (deep < 0 || !move_a_little(run)) break;
         book_place(run, deep, below);
         any = true;
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "loop/zeno_switch.h"
+#include "loop/zeno.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -134,9 +134,8 @@ static void compare_body(struct checks *checks, const struct belt *belt, int i, 
                          const struct trial *surface)
 {
     static const char *const names[] = {"x", "y", "vx", "vy", "theta", "omega"};
-    /* Impacts multiply the errors of a tolerance of 1e-11. The bounces of a box on its two corners, infinitely many, end
-     * at a level of their heights: in the two frames one bounce earlier or later, of 2000 scenes with 4e-4 m/s at most. */
-    const double same = belt->bodies[i].what == a_box ? 1e-3 : 1e-7;
+    /* Impacts multiply the errors of a tolerance of 1e-11. */
+    const double same = 1e-7;
     const double t = belt->until, c = cos(belt->angle), s = sin(belt->angle);
     const double way = belt->s * t + belt->a / belt->w * (1 - cos(belt->w * t));
     const double speed = belt->s + belt->a * sin(belt->w * t);
