@@ -102,7 +102,7 @@ static inline struct fbd_state *state_new(const struct fbd_model *model)
     return state_make(model, NULL, NULL);
 }
 
-/* Free a state; in an arena, the memory that it has beside. */
+/* Free a state; of one in an arena, its memory outside of it. */
 void state_free(struct fbd_state *state);
 
 /* Make `to` equal to `from`; both belong to the same model. */

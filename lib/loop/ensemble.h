@@ -147,7 +147,7 @@ static inline size_t group_load_count(const struct fbd_model *whole, const struc
     return group->selection ? group->selection->load_count : whole->load_count;
 }
 
-/* The time that an island has reached, and what its run has cost. */
+/* The time that an island has reached, and the cost of its run. */
 static inline double group_end(const struct group *group)
 {
     return group->run ? group->run->state->t : group->past.t;

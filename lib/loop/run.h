@@ -198,7 +198,7 @@ struct run {
 };
 
 /* A run at the start of the model, with modes settled and events of t = 0 applied. It is in `memory`, with its arrays and
- * states; run_free frees what it has beside. NULL when memory is out. */
+ * states; run_free frees its other memory. NULL when memory is out. */
 struct run *run_new(const struct fbd_model *model, const struct run_options *options,
                     const struct state_start *begin, struct arena *memory);
 void run_free(struct run *run);
