@@ -15,7 +15,7 @@
  *     fixed (kinetic friction, side s)     0, 0 with both shares s mu: w_i is then of any sign, and the problem unsymmetric
  *
  * Row k has no shares of its own, and low >= 0; or it is an equality whose multiplier, the normal force of a guide, may have
- * either sign: `load` sets what replaces x_k in the limits of others.
+ * either sign: `load` selects the number in place of x_k in the limits of others.
  *
  * Limits fall by the part `loss` where w_i is not zero: static above kinetic friction. The rows that slip are found with the
  * limits as they are, then get their loss, and the others are decided again.
