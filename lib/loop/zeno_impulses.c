@@ -188,7 +188,8 @@ static bool stop_slips(struct remainder *remainder)
         enum fate *fate = &remainder->fate[line];
         const enum fate before = *fate;
         const double after = velocity_after(remainder, line);
-        if (before == slips && (after * v[line] < 0 || fabs(after) <= hardly * remainder->slow)) *fate = stops;
+        if (before == slips && (after * v[line] < 0 || fabs(after) <= hardly * remainder->slow))
+            *fate = stops;
         if (before == stops && exceeds_limit(remainder, line)) *fate = slips_on;
         any |= *fate != before;
     }
@@ -226,11 +227,11 @@ static void stick_stopped(const struct remainder *remainder)
 {
     struct run *run = remainder->run;
     for (int i = 0; i < remainder->count; i++) {
-        const int pair = coupling_of(remainder, i)->pair;
-        const bool held = run->contacts.strikers[i].contact && is_held(remainder, 2 * i + 1);
-        if (pair < 0 || !held || run->state->slip[pair] == stick) continue;
-        coupling_rezero(run->model, run->state->tree, run->contacts.strikers[i].coupling);
-        run->state->slip[pair] = stick;
+        const struct coupling *coupling = coupling_of(remainder, i);
+        const bool held = coupling->meeting >= 0 && is_held(remainder, 2 * i + 1);
+        if (coupling->pair < 0 || !held || run->state->slip[coupling->pair] == stick) continue;
+        coupling_rezero(run->model, run->state->tree, (int)(coupling - run->model->tree->couplings));
+        run->state->slip[coupling->pair] = stick;
     }
 }
 
