@@ -4,7 +4,6 @@
  */
 #include <errno.h>
 #include <gsl/gsl_errno.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "complain.h"

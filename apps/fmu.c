@@ -2,7 +2,6 @@
 #include "fmu.h"
 
 #include <errno.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "complain.h"

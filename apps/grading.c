@@ -2,7 +2,6 @@
 #include "grading.h"
 
 #include <errno.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "complain.h"

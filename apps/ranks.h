@@ -6,7 +6,6 @@
 #ifndef FBD_APPS_RANKS_H
 #define FBD_APPS_RANKS_H
 
-#include "fbd.h"
 #include "fbd_study.h"
 
 struct ranks {

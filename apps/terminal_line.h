@@ -7,7 +7,6 @@
 #define FBD_APPS_TERMINAL_LINE_H
 
 #include <stdbool.h>
-#include <stddef.h>
 
 struct terminal_line {
     bool visible;

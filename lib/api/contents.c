@@ -2,7 +2,6 @@
  *
  * Public interface: the contents of a model file beside its bodies.
  */
-#include <math.h>
 #include <stdlib.h>
 
 #include "base/api_check.h"

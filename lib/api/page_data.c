@@ -12,7 +12,6 @@
  *
  * Names and titles are data, never markup: the script inserts them as text.
  */
-#include <stdlib.h>
 #include <string.h>
 
 #include "api/pack.h"

@@ -4,7 +4,6 @@
  */
 #include <math.h>
 
-#include "base/api_check.h"
 #include "dynamics/diagram.h"
 #include "expr/curve.h"
 #include "fbd_view.h"

@@ -2,7 +2,6 @@
  *
  * The fixtures of a panel: outline and centre of mass of the body, its surface or axis, and its coordinate.
  */
-#include <string.h>
 
 #include "draw/panel.h"
 #include "fbd_view.h"

@@ -3,7 +3,6 @@
  * The eigenvalues of a linearisation in the complex plane: decay to the left, growth to the right, frequency
  * upward. The angle from the negative real axis is the arc cosine of the damping ratio.
  */
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/format.h"

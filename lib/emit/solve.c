@@ -2,7 +2,6 @@
  *
  * Accelerations: the tree in its modes, bodies outside the tree, dry friction.
  */
-#include <string.h>
 
 #include "emit/bodies.h"
 #include "emit/placed.h"

@@ -2,7 +2,6 @@
  *
  * The articulated-body recursion of dynamics/tree.h, unrolled: one line for each body in each pass.
  */
-#include <string.h>
 
 #include "emit/bodies.h"
 #include "emit/placed.h"

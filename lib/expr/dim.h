@@ -10,7 +10,6 @@
 #define FBD_EXPR_DIM_H
 
 #include <stdbool.h>
-#include <stddef.h>
 
 enum { dim_unit = 12 }; /* an exponent of one */
 

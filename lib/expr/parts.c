@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "expr/parts.h"
 
-#include <math.h>
 #include <string.h>
 
 /* ---- recognition: the form of each register, if it is a sum of parts */

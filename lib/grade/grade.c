@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/api_check.h"
-#include "base/file.h"
 #include "base/text.h"
 #include "fbd_grade.h"
 #include "grade/grade.h"

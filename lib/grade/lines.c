@@ -5,7 +5,6 @@
  * A line of the key is matched by true lines about the same unknown: an acceleration, or the normal force. A
  * line that is true for all values of the unknowns, as `m*a = m*a`, matches none.
  */
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/text.h"

@@ -4,7 +4,6 @@
  */
 #include "grade/reactions_work.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "fbd_grade.h"

@@ -4,7 +4,6 @@
  */
 #include <string.h>
 
-#include "base/text.h"
 #include "fbd_grade.h"
 #include "grade/verdict.h"
 

@@ -37,7 +37,6 @@
 
 #include "base/time_dd.h"
 #include "integrate/layout.h"
-#include "integrate/powers.h"
 
 struct dense;
 

@@ -4,7 +4,6 @@
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stdbool.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 

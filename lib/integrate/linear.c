@@ -3,7 +3,6 @@
 
 #include <gsl/gsl_errno.h>
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -2,7 +2,6 @@
 #include "integrate/substeps.h"
 
 #include <gsl/gsl_errno.h>
-#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>

@@ -4,7 +4,6 @@
  * entries, those with six belong to the entry above.
  */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "note/note.h"

@@ -2,8 +2,6 @@
  *
  * The sketch of the system, the free-body diagrams with values, and the equations.
  */
-#include <stdlib.h>
-#include <string.h>
 
 #include "note/note.h"
 

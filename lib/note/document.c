@@ -2,7 +2,6 @@
 #include "note/document.h"
 
 #include <stdarg.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/format.h"

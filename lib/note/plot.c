@@ -3,7 +3,6 @@
  * A plot of columns over the time as SVG: curves differ by colour and by dashes, events are dashed vertical lines.
  */
 #include <math.h>
-#include <string.h>
 
 #include "base/format.h"
 #include "base/printed.h"

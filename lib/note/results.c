@@ -3,7 +3,6 @@
  * The results of a note: events, the state and the forces at the end, energy. Numbers are those of the JSON of the run.
  */
 #include <math.h>
-#include <stdint.h>
 #include <string.h>
 
 #include "base/format.h"

@@ -4,7 +4,6 @@
  */
 #include "output/explain.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/api_check.h"

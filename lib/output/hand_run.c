@@ -2,7 +2,6 @@
 #include "output/hand_run.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "loop/options.h"

@@ -2,7 +2,6 @@
  *
  * JSON: one object for a run (see docs/output.md for its contract).
  */
-#include <stdlib.h>
 
 #include "dynamics/diagram.h"
 #include "dynamics/mass.h"

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "output/run_record.h"
 
-#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 

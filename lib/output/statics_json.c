@@ -6,7 +6,6 @@
 #include "fbd_study.h"
 #include "output/display_units.h"
 #include "output/equations.h"
-#include "record/result.h"
 #include "rest/statics.h"
 
 static struct vec mass_center_of(const struct fbd_statics *statics, const struct model_body *body)

@@ -8,7 +8,6 @@
 #include "output/display_units.h"
 #include "output/equations.h"
 #include "output/words.h"
-#include "record/result.h"
 #include "rest/statics.h"
 
 enum { digits = 9 };

@@ -7,7 +7,6 @@
 
 #include "base/printed.h"
 #include "dynamics/friction.h"
-#include "expr/glyph.h"
 #include "model/tree.h"
 
 /* One force of the scene, in any diagram. */

@@ -5,7 +5,6 @@
 #ifndef FBD_SCENE_LOADS_H
 #define FBD_SCENE_LOADS_H
 
-#include "base/arena.h"
 #include "base/diag.h"
 #include "base/vec.h"
 #include "expr/curve.h"

@@ -6,7 +6,6 @@
 #include "scene/reader.h"
 #include "scene/values.h"
 
-#include <math.h>
 
 static bool read_slide(struct reader *reader, const struct chosen *chosen, const struct motion_keys *keys)
 {

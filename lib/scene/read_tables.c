@@ -4,7 +4,6 @@
  * first use, so that they may stand in any order, and points may name parameters.
  */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/number.h"

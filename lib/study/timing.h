@@ -9,7 +9,6 @@
 #ifndef FBD_STUDY_TIMING_H
 #define FBD_STUDY_TIMING_H
 
-#include "study/track.h"
 
 enum { most_repeats = 31 };
 
