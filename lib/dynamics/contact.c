@@ -354,16 +354,6 @@ static void consider(struct outermost *found, int feature, double foot)
     found->count++;
 }
 
-double meeting_speed(const struct tree_work *work, const struct meeting *meeting)
-{
-    double speed = 0;
-    for (int k = 0; k < 2; k++) {
-        const struct tree_state *s = &work->links[meeting->shape[k].link];
-        speed = fmax(speed, vec_norm(s->v) + fabs(s->omega) * meeting->size);
-    }
-    return speed;
-}
-
 /* A point at an end of a side that moves off it is not on the side. */
 static bool is_on_side(const struct fbd_model *model, const struct tree_work *work, int index,
                        const struct place_on_side *at, double near)

@@ -37,3 +37,13 @@ double meeting_low_step(const struct fbd_model *model, const struct tree_work *w
             height = fmax(height, depth_along(model, work, index, moving, side, along * speed));
     return height;
 }
+
+double meeting_speed(const struct tree_work *work, const struct meeting *meeting)
+{
+    double speed = 0;
+    for (int k = 0; k < 2; k++) {
+        const struct tree_state *s = &work->links[meeting->shape[k].link];
+        speed = fmax(speed, vec_norm(s->v) + fabs(s->omega) * meeting->size);
+    }
+    return speed;
+}

@@ -498,9 +498,3 @@ void return_to_constraints(const struct fbd_model *model, const struct instant *
     here.y = y;
     bring_back(&(struct place){model, here, y, .returning = true});
 }
-
-void state_return(struct fbd_state *state)
-{
-    struct instant at = state_instant(state);
-    return_to_constraints(state->model, &at, state->y);
-}

@@ -7,6 +7,12 @@
 #include "dynamics/project.h"
 #include "dynamics/tree_system.h"
 
+void state_return(struct fbd_state *state)
+{
+    struct instant at = state_instant(state);
+    return_to_constraints(state->model, &at, state->y);
+}
+
 static struct closing close_any(struct fbd_state *state)
 {
     const struct instant at = state_instant(state);

@@ -332,14 +332,6 @@ static void unstick(struct run *run, double interval)
 
 /* ---- complete impact */
 
-double contacts_reach(const struct run *run, int index)
-{
-    const struct instant at = state_instant(run->state);
-    double near = meeting_near(run->model, run->state->tree, index);
-    double deep = meeting_depth(run->model, &at, index);
-    return deep > near && deep <= contacts_late * near ? 1.001 * deep : near;
-}
-
 /* Find the touching features of all pairs, and evaluate their rows. */
 static void find_touching(struct run *run)
 {

@@ -308,3 +308,11 @@ void run_check_overlap(struct run *run)
              run_time(run), run->model->scene->constraints[tree_of(run)->meetings[meeting].constraint].name,
              depth, unit);
 }
+
+double contacts_reach(const struct run *run, int index)
+{
+    const struct instant at = state_instant(run->state);
+    double near = meeting_near(run->model, run->state->tree, index);
+    double deep = meeting_depth(run->model, &at, index);
+    return deep > near && deep <= contacts_late * near ? 1.001 * deep : near;
+}

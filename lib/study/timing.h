@@ -9,6 +9,7 @@
 #ifndef FBD_STUDY_TIMING_H
 #define FBD_STUDY_TIMING_H
 
+#include "fbd.h"
 
 enum { most_repeats = 31 };
 

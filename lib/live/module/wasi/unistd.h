@@ -9,11 +9,13 @@
 #include <errno.h>
 #include_next <unistd.h>
 
+#ifdef __wasi__
 static inline int dup(int descriptor)
 {
     (void)descriptor;
     errno = ENOTSUP;
     return -1;
 }
+#endif
 
 #endif

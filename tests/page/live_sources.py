@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Usage: live_sources MAP: the files of GSL that are compiled for live pages (lib/live/module/gsl_files) are those that a link
+"""Usage: live_sources.py MAP: the files of GSL that are compiled for live pages (lib/live/module/gsl_files) are those that a link
 of the module takes from GSL's archives, by the MAP of the linker. Archives made of parts name members of the same name
 lt10-copy.o, lt83-copy.o; so names without folders are counted."""
 import os
@@ -10,7 +10,6 @@ from collections import Counter
 from pathlib import Path
 
 SOURCE = Path(os.environ["FBD_SOURCE_ROOT"])
-sys.path.insert(0, str(SOURCE / "tests/tools"))
 from claims import claim, finish  # noqa: E402
 
 MEMBER = re.compile(r"^\S*libgsl(?:cblas)?\.a\((?:lt\d+-)?([\w-]+)\.o\)\s*$", re.MULTILINE)
