@@ -6,7 +6,6 @@
 #include "scene/reader.h"
 #include "scene/values.h"
 
-
 static bool read_slide(struct reader *reader, const struct chosen *chosen, const struct motion_keys *keys)
 {
     const char *hint = "a line has its direction and its zero";

@@ -95,10 +95,8 @@ static void details_are_for_the_teacher(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(derivations_are_checked),
-        cmocka_unit_test(values_are_found),
-        cmocka_unit_test(notes_are_written),
-        cmocka_unit_test(answers_are_graded),
+        cmocka_unit_test(derivations_are_checked),     cmocka_unit_test(values_are_found),
+        cmocka_unit_test(notes_are_written),           cmocka_unit_test(answers_are_graded),
         cmocka_unit_test(details_are_for_the_teacher),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
