@@ -22,9 +22,10 @@ function saveText() {
 
 // A calculation note of the model that is shown, as HTML.
 function saveNote() {
-  const button = element("live-note"), said = button.textContent;
+  const button = element("live-note"), said = "Save calculation note";
   button.textContent = "calculating…";
   bench.writer = bench.writer || makeAsker(() => {});
+  bench.writer.failed = (message) => { button.textContent = said; say(`the note has failed: ${message}`, "error"); };
   bench.writer.ask("note", [editor.value, parts.name, offNames()], (answer) => {
     const { errors, note } = JSON.parse(answer);
     button.textContent = said;

@@ -7,9 +7,9 @@ const finder = { asker: null };
 
 // A value in SI units as the slider of a parameter writes it, with all digits that are known.
 function valueAsWritten(knob, { value, error }) {
-  const { factor, unit } = knob.quantity;
+  const { factor, unit: units } = knob.quantity;
   const digits = error > 0 ? Math.min(12, Math.max(3, Math.ceil(Math.log10(Math.abs(value) / error)))) : 12;
-  return `${Number((value / factor).toPrecision(Number.isFinite(digits) ? digits : 12))}${unit ? ` ${unit}` : ""}`;
+  return `${Number((value / factor).toPrecision(Number.isFinite(digits) ? digits : 12))}${units ? ` ${units}` : ""}`;
 }
 
 function markSlider(knob, solutions) {
@@ -45,13 +45,15 @@ function showFound(answer) {
   markSlider(knob, find.solutions);
   const within = `${show(find.step / knob.quantity.factor, 3)} ${knob.quantity.unit}`.trim();
   const range = `between ${show(find.from / knob.quantity.factor)} and ${show(find.to / knob.quantity.factor)} ${knob.quantity.unit}`.trim();
-  says.textContent = `${find.solutions.length || "no"} ${find.solutions.length === 1 ? "value" : "values"} ${range}; ${find.runs} runs, of two values closer than ${within} both may be missed`;
+  const count = `${find.solutions.length || "no"} ${find.solutions.length === 1 ? "value" : "values"}`;
+  says.textContent = `${count} ${range}; ${find.runs} runs, of two values closer than ${within} both may be missed`;
 }
 
 function askForValues(event) {
   event.preventDefault();
   const says = element("live-find-says");
   finder.asker = finder.asker || makeAsker(([share, all]) => { says.textContent = `searching… ${Math.round(100 * share / all)} %`; });
+  finder.asker.failed = (message) => Object.assign(says, { className: "error", textContent: `the search has failed: ${message}` });
   says.textContent = "searching…";
   finder.asker.ask("find", [editor.value, parts.name, element("live-question").value], showFound, [element("live-statics").checked ? 1 : 0]);
 }
