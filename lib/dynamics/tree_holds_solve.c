@@ -31,6 +31,15 @@ void hold_set_pull(struct fbd_state *state, int pair, double N)
     if (mode_of(state, pair)->two_sided) state->pull[pair] = N < 0 ? -1 : 1;
 }
 
+/* The limit of a sticking friction. */
+static double limit_of(const struct hold_problem *problem, const struct hold *hold)
+{
+    if (hold->press == press_constant) return hold->mu_s;
+    if (hold->press == press_hold) return hold->mu_s * (hold->preload + problem->holds[hold->presses].force);
+    const struct hold_guide *guide = &problem->guides[hold->presses];
+    return hold->mu_s * (hold->preload + (guide->two_sided ? fabs(guide->N) : fmax(guide->N, 0)));
+}
+
 /* The alternative mode of a constraint at its limit, or 0. If a corner touches two surfaces, the friction on
  * one of them and the normal force of the other are redundant, and the solution has one at its limit at rest:
  * it may slip with zero velocity. Of two contacts at nearly the same place one may have no force, and may
@@ -48,8 +57,7 @@ static int barely_holds(const struct gathered *all, size_t i)
         for (size_t j = 0; j < all->problem.count; j++) most = fmax(most, fabs(all->problem.holds[j].force));
         return hold->force <= rounding * most ? hold_gives : 0;
     }
-    if (hold->press != press_hold) return 0;
-    double limit = hold->mu_s * all->problem.holds[hold->presses].force;
+    double limit = limit_of(&all->problem, hold);
     if (!(limit > 0) || fabs(hold->force) < (1 - rounding) * limit) return 0;
     return hold->force > 0 ? -1 : 1;
 }

@@ -99,7 +99,7 @@ static double size_of(const struct hold_problem *problem)
 int holds_by_modes(struct hold_problem *problem)
 {
     int all = 1 << problem->guide_count, solutions = 0, side[most];
-    double c[most], force[most];
+    double c[most] = {0}, force[most] = {0};
     for (size_t i = 0; i < problem->count; i++) all *= choices(&problem->holds[i]);
     for (int number = 0; number < all; number++) {
         set_modes(problem, number, side);

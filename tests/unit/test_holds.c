@@ -59,7 +59,7 @@ static void what_is_decided_is_the_solution(void **unused)
     for (uint64_t seed = 1; seed <= 3000; seed++) {
         struct random_numbers numbers = {seed};
         struct hold_problem problem;
-        double c[most_holds];
+        double c[most_holds] = {0};
         assert_true(holds_new(&problem, 1 + (size_t)random_between(&numbers, 0, most_holds),
                               (size_t)random_between(&numbers, 0, most_guides + 1)));
         fill(&numbers, &problem);

@@ -89,7 +89,7 @@ static void monotone_problems_are_solved(void **unused)
         struct random_numbers numbers = {seed};
         size_t n = 1 + (size_t)random_between(&numbers, 0, most),
                rank = (size_t)random_between(&numbers, 0, (double)n + 1);
-        double J[most * most], M[most * most] = {0}, q[most], z[most], w[most];
+        double J[most * most] = {0}, M[most * most] = {0}, q[most], z[most], w[most];
         for (size_t i = 0; i < n * n; i++) J[i] = random_between(&numbers, -1, 1);
         for (size_t i = 0; i < n; i++)
             for (size_t k = 0; k < i; k++) {
