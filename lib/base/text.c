@@ -30,7 +30,7 @@ bool text_reserve(struct text *text, size_t more)
 void text_add_bytes(struct text *text, const char *bytes, size_t length)
 {
     if (!text_reserve(text, length)) return;
-    memcpy(text->data + text->length, bytes, length);
+    if (length > 0) memcpy(text->data + text->length, bytes, length); /* NULL has no bytes */
     text->length += length;
     text->data[text->length] = '\0';
 }
