@@ -47,7 +47,7 @@ bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fb
     ledger->through = ledger->lively + loads + 1;
     ledger->powers = ledger->through + loads + 1;
     ledger->scratch = ledger->powers + power_points * loads;
-    ledger->integrated = (bool *)(ledger->scratch + size);
+    ledger->integrated = (void *)(ledger->scratch + size);
     ledger->counted = ledger->integrated + loads;
     struct instant at = state_instant(start);
     ledger->initial_kinetic = kinetic(model, &at);
