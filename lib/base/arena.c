@@ -31,6 +31,7 @@ static bool add_chunk(struct arena *arena, size_t wanted, bool *clear)
 {
     size_t next = arena->chunks ? 4 * arena->chunks->size : first_chunk;
     if (next > largest_chunk || arena->much_room) next = largest_chunk;
+    if (!arena->chunks && next < arena->room) next = arena->room;
     *clear = wanted >= next;
     size_t room = wanted > next ? wanted : next, size = sizeof(struct arena_chunk) + room;
     struct arena_chunk *chunk = *clear ? calloc(1, size) : malloc(size);
@@ -120,4 +121,18 @@ void arena_free(struct arena *arena)
         arena->chunks = next;
     }
     arena->failed = false;
+}
+
+void arena_empty(struct arena *arena)
+{
+    struct arena_chunk *only = arena->chunks;
+    if (!only || !only->next) {
+        if (only) only->used = 0;
+        arena->failed = false;
+        return;
+    }
+    size_t room = 0;
+    for (; only; only = only->next) room += only->size;
+    arena_free(arena);
+    arena->room = room;
 }

@@ -19,6 +19,7 @@ struct arena {
     struct arena_chunk *chunks;
     bool failed;    /* true once any allocation has failed */
     bool much_room; /* the first chunk has the largest size, for arenas that are refilled often */
+    size_t room;    /* of the first chunk after arena_empty: all that the arena held before */
 };
 
 /* `count` zeroed objects of `size` bytes, or NULL when memory is out or count * size overflows. */
@@ -43,6 +44,9 @@ typedef bool arena_difference(void *context, uint64_t *word, uint64_t twin);
 /* Compare two arenas word by word. False when they were not filled by the same calls, or `differs` returned
  * false. */
 bool arena_compare(const struct arena *a, const struct arena *b, arena_difference *differs, void *context);
+
+/* Forget all pieces, and keep the memory in one chunk for as many again. */
+void arena_empty(struct arena *arena);
 
 /* Free all memory; the arena is then empty and may be used again. */
 void arena_free(struct arena *arena);

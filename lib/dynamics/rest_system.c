@@ -209,7 +209,54 @@ static bool keep_limits(struct rest_system *system)
 /* Relative tolerance for dependent columns of E. */
 static const double dependent = 1e-10;
 
-static bool allocate(struct rest_system *system)
+static int top_of(const int *set, int i)
+{
+    while (set[i] != i) i = set[i];
+    return i;
+}
+
+/* The set of the bodies of row j; 0 if it acts on none that moves. */
+static int set_of_row(const struct rest_system *system, int j)
+{
+    const struct row *row = &system->at.tree->rows[j];
+    const struct tree_link *links = system->state->model->tree->links;
+    for (int i = 0; i < row->port_count; i++)
+        if (row->ports[i].link != 0) return top_of(system->set, links[row->ports[i].link].root);
+    return 0;
+}
+
+static void join_ports(struct rest_system *system, const struct row *row)
+{
+    const struct tree_link *links = system->state->model->tree->links;
+    int first = 0;
+    for (int i = 0; i < row->port_count; i++) {
+        int link = row->ports[i].link;
+        if (link == 0) continue;
+        int top = top_of(system->set, links[link].root);
+        if (first == 0) first = top;
+        system->set[top] = first;
+    }
+}
+
+/* Which of the sets of bodies that active rows connect has rows that may be dependent? By the root of each
+ * set; no row of another set shares forces with them. */
+static const int *weak_sets(struct rest_system *system)
+{
+    const struct tree *tree = system->state->model->tree;
+    int *weak = ARENA_ARRAY(system->arena, (size_t)tree->count, int);
+    system->set = ARENA_ARRAY(system->arena, (size_t)tree->count, int);
+    if (!weak || !system->set) return NULL;
+    for (int i = 0; i < tree->count; i++) system->set[i] = i;
+    for (int j = 0; j < tree->row_count; j++)
+        if (tree_takes_part(tree, &system->at, j)) join_ports(system, &system->at.tree->rows[j]);
+    for (int j = 0; j < tree->row_count; j++)
+        if (tree_takes_part(tree, &system->at, j) && system->at.tree->rows[j].weak)
+            weak[set_of_row(system, j)] = 1;
+    return weak;
+}
+
+/* With the active rows, or `among_weak` with those alone that may share their forces with dependent ones. */
+static bool allocate(struct rest_system *system, bool among_weak)
 {
     const struct fbd_model *model = system->state->model;
     const struct tree *tree = model->tree;
@@ -217,8 +264,10 @@ static bool allocate(struct rest_system *system)
     size_t rows = (size_t)(tree ? tree->row_count : 0);
     const struct instant at = system->at;
     system->rows = ARENA_ARRAY(arena, rows + 1, int);
+    const int *weak = among_weak ? weak_sets(system) : NULL;
     for (int j = 0; system->rows && j < (int)rows; j++)
-        if (tree_takes_part(tree, &at, j)) system->rows[system->m++] = j;
+        if (tree_takes_part(tree, &at, j) && (!weak || weak[set_of_row(system, j)]))
+            system->rows[system->m++] = j;
     size_t n = system->n, m = system->m;
     system->reactions = m + 3 * (size_t)(tree ? tree->count - 1 : 0);
     system->held = ARENA_ARRAY(arena, n + 1, bool);
@@ -296,7 +345,7 @@ bool rest_solve(struct rest_system *system, struct fbd_state *state, struct aren
                                    .arena = arena,
                                    .n = (size_t)plan->n,
                                    .slots = (size_t)plan->slots};
-    if (!allocate(system)) return false;
+    if (!allocate(system, false)) return false;
     rest_forces(state->model, &system->at, system->lambda, true, system->slots0, system->Q);
     if (!find_sizes(system)) return false;
     if (!rest_find_bounds(system)) return false;
@@ -362,7 +411,7 @@ bool rest_open(struct rest_system *system, struct fbd_state *state, const struct
                                    .n = (size_t)plan->n,
                                    .slots = (size_t)plan->slots};
     if (!rest_is_open(state->model, at)) return false;
-    if (!allocate(system) || !keep_base(system, slots) || !find_sizes(system)) return false;
+    if (!allocate(system, true) || !keep_base(system, slots) || !find_sizes(system)) return false;
     for (size_t j = 0; system->force == 0 && j < system->m; j++) /* for rotations without a load */
         system->force = fabs(system->base.lambda[system->rows[j]]);
     if (system->force == 0 || !rest_find_bounds(system)) return false; /* all forces are zero */

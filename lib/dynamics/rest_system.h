@@ -46,6 +46,7 @@ struct rest_system {
     struct arena *arena;
     size_t n, m, slots, reactions; /* coordinates, active rows, plan.slots, entries of r */
     int *rows;                     /* m: their numbers */
+    int *set;                      /* of each link: another one of its set, or itself (weak_sets) */
     const double *accelerations;   /* n */
     bool *held;                    /* n */
     double *scale;                 /* n: 1, or one over the length for an angle; 0 if held */

@@ -10,16 +10,15 @@
 /* Choose the indeterminate reactions. */
 static void share_out(struct fbd_state *state, double *slots)
 {
-    struct arena arena = {0};
     struct rest_system system;
     struct instant at = state_instant(state);
     state->tree->shared = true;
     state->tree->shared_size = 0;
     if (!rest_is_open(state->model, &at)) return;
+    struct arena arena = state_lend(state);
     if (rest_open(&system, state, &at, slots, state->a, &arena)) rest_share(&system, slots);
-    if (arena.failed) state->holds.found = holds_no_memory;
     rest_free(&system);
-    arena_free(&arena);
+    state_take_back(state, &arena);
 }
 
 void state_evaluate_unshared(struct fbd_state *state)

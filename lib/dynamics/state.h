@@ -43,6 +43,7 @@ struct fbd_state {
     double *extended;        /* scratch of world_refs.h */
     struct sliding *sliding; /* NULL if no switch can have a sliding mode */
     struct tree_work *tree;  /* of the bodies, by state_evaluate */
+    struct arena kept;       /* memory of looks at redundant forces, for the next one (state_lend) */
 };
 
 /* Parts of the scratch of a state: none of them outlives a call. */
@@ -101,6 +102,10 @@ static inline struct fbd_state *state_new(const struct fbd_model *model)
 {
     return state_make(model, NULL, NULL);
 }
+
+/* Lend the kept memory, empty; state_take_back returns it, and notes if it was short. */
+struct arena state_lend(struct fbd_state *state);
+void state_take_back(struct fbd_state *state, struct arena *arena);
 
 /* Free a state; of one in an arena, its memory outside of it. */
 void state_free(struct fbd_state *state);

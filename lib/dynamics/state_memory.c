@@ -66,9 +66,25 @@ struct fbd_state *state_allocate(const struct fbd_model *model, struct arena *me
     return state;
 }
 
+struct arena state_lend(struct fbd_state *state)
+{
+    struct arena lent = state->kept;
+    state->kept = (struct arena){0};
+    return lent;
+}
+
+void state_take_back(struct fbd_state *state, struct arena *arena)
+{
+    if (arena->failed) state->holds.found = holds_no_memory;
+    arena_free(&state->kept); /* of a look within the look */
+    arena_empty(arena);
+    state->kept = *arena;
+}
+
 void state_free(struct fbd_state *state)
 {
     if (!state) return;
+    arena_free(&state->kept);
     rest_memo_free(state->tree->memo);
     if (!state->in_arena) free(state);
 }

@@ -173,7 +173,7 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
     struct instant at = state_instant(state);
     if (!solved && rest_is_open(state->model, &at) && tree_choose_sides(state, slots))
         flow = tree_evaluate(state);
-    struct arena arena = {0};
+    struct arena arena = state_lend(state);
     struct rest_margin margin = {0};
     bool shared = tree_find_margin(state, &at, true, &flow, slots, slots_along, &arena, &margin);
     if (shared && margin.value < 0) /* the loss of a slide's surface is detected elsewhere */
@@ -207,7 +207,7 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
     if (found == at_limit) forced[which] = state->slip[which] = next;
     if (found == differs && solved && which >= 0) state->holds.contradicts = which;
     if (found == agrees && shared) found = tree_judge(state, &margin, forced);
-    arena_free(&arena);
+    state_take_back(state, &arena);
     return found;
 }
 

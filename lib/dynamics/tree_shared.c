@@ -29,15 +29,14 @@ static bool has_two_sided_guides(const struct plan *plan)
 bool tree_choose_sides(struct fbd_state *state, const double *slots)
 {
     if (!has_two_sided_guides(&state->model->plan)) return false;
-    struct arena arena = {0};
+    struct arena arena = state_lend(state);
     struct rest_system system;
     struct instant at = state_instant(state);
     bool open = rest_open(&system, state, &at, slots, state->a, &arena);
     bool changed = open && rest_choose_sides(&system);
     if (open) rest_restore(&system);
-    if (arena.failed) state->holds.found = holds_no_memory;
     rest_free(&system);
-    arena_free(&arena);
+    state_take_back(state, &arena);
     return changed;
 }
 
@@ -77,9 +76,9 @@ enum agreement tree_judge(struct fbd_state *state, const struct rest_margin *mar
 
 bool tree_give_shared(struct fbd_state *state, int pair, struct decided *decided)
 {
-    struct arena arena = {0};
     struct rest_margin margin;
     if (!tree_joins(state->model->tree)) return false; /* bodies that stand alone have no redundant loads */
+    struct arena arena = state_lend(state);
     struct scratch scratch = state_scratch(state);
     struct direction flow = tree_evaluate(state);
     struct instant at = state_instant(state);
@@ -94,6 +93,6 @@ bool tree_give_shared(struct fbd_state *state, int pair, struct decided *decided
         give(state, &margin, state->slip_forced);
         gathered_set_out(state, margin.gives);
     }
-    arena_free(&arena);
+    state_take_back(state, &arena);
     return gives;
 }

@@ -266,6 +266,7 @@ static void set_flow(struct view *view, enum needs needs)
     view->slots_along = slots_along;
     if (state->model->names_reactions) set_reactions(view);
     if (!tree_joins(state->model->tree)) return;
+    view->arena = state_lend(state);
     view->shared = tree_find_margin(state, &view->at, true, &view->flow, slots, slots_along, &view->arena,
                                     &view->margin);
 }
@@ -331,7 +332,7 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
         case watch_normal_turns: values[i] = friction_value(watchers, watcher, &view, &rates[i]); break;
         }
     }
-    arena_free(&view.arena);
+    state_take_back(state, &view.arena);
 }
 
 void watchers_evaluate_timed(const struct watchers *watchers, struct fbd_state *state, struct time_dd t,
@@ -359,7 +360,7 @@ static double user_rate(const struct watch *watch, struct fbd_state *state)
     double rate;
     set_flow(&view, watch->reacts ? needs_forces : needs_flow);
     user_value(watch, &view, &rate);
-    arena_free(&view.arena);
+    state_take_back(state, &view.arena);
     return rate;
 }
 
