@@ -52,6 +52,7 @@ static void plan_resistance(struct builder *builder, struct coupling *coupling)
     coupling->normal_slot = roll->normal_slot;
     coupling->surface = roll->surface;
     add_rubbing(builder, coupling);
+    builder->model->plan.modes[coupling->pair].moment = true;
 }
 
 /* A rope is taut or slack. */
