@@ -7,6 +7,7 @@
  *   by a moment      it rolls from T = b N on, with a = (T - b N) / (m R (1 + k))
  *   by a force       at the angle beta it rolls from F = b m g / (R cos(beta) + b sin(beta)) on
  *   on a cart M      relative to it a = -c m g / (mu + k m), mu = m M / (m + M)
+ *   by an impact     of a mass M at its centre, with (1 + e) M v / (M + (1 + k) m) at first
  *   from a slide     without turning while mu R <= b; else it rolls from t = v / (g (mu + (mu - c) / k)) on
  */
 #include <setjmp.h>
@@ -151,11 +152,35 @@ static void check_slide(struct checks *checks, struct random_numbers *numbers)
     trial_close(&trial);
 }
 
+/* A ball of mass M hits the centre of a wheel at rest, which then rolls with the inertia (1 + k) m. */
+static void check_hit(struct checks *checks, struct random_numbers *numbers)
+{
+    struct wheel w = draw_wheel(numbers);
+    const double M = random_between(numbers, 0.5, 5), e = random_between(numbers, 0, 1), r = w.R / 2;
+    const double I = (1 + w.k) * w.m, after = (1 + e) * M * w.v / (M + I);
+    const double stop = after * (1 + w.k) / (g * w.c), hit = 1, until = hit + 1.5 * stop;
+    char text[1000];
+    if (M > e * I) return; /* the ball follows, and hits the wheel again */
+    snprintf(text, sizeof text,
+             "fbd: 1\nground: {lines: {floor: {along: 0}}}\nbodies:\n  wheel: {mass: %.17g, inertia: %.17g, "
+             "motion: planar, initial: {y: %.17g}, forces: [gravity]}\n  ball: {mass: %.17g, shape: disc, "
+             "radius: %.17g, motion: {slide: {along: 0, through: [0, %.17g]}}, initial: {x: %.17g, v: "
+             "%.17g}}\ncouplings:\n  - roll: {body: wheel, on: floor, center: [0, 0], radius: %.17g, "
+             "rolling_resistance: %.17g}\ncontacts:\n  - {between: [ball, wheel.G], restitution: "
+             "%.17g}\nsimulate: {until: %.17g}\n",
+             w.m, w.k * w.m * w.R * w.R, w.R, M, r, w.R, -r - w.v * hit, w.v, w.R, w.c * w.R, e, until);
+    struct trial trial = trial_parse(text);
+    trial_start(&trial, NULL);
+    trial_to(&trial, hit + stop / 2);
+    check_close(checks, "v after a hit", trial_get(&trial, "wheel.vx"), after / 2, accuracy * after);
+    trial_close(&trial);
+}
+
 static void rolling_resistance_has_closed_forms(void **unused)
 {
     (void)unused;
     static void (*const kinds[])(struct checks *checks, struct random_numbers *numbers) = {
-        check_incline, check_moment, check_force, check_cart, check_slide};
+        check_incline, check_moment, check_force, check_cart, check_slide, check_hit};
     const int draws = draws_of(100);
     struct random_numbers numbers = {2051};
     struct checks checks = {0};
