@@ -43,8 +43,7 @@ bool tree_takes_part(const struct tree *tree, const struct instant *at, int k)
     const struct coupling *coupling = &tree->couplings[tree->coupling_of_row[k]];
     if (at->tree->couplings[tree->coupling_of_row[k]].gone) return false;
     if (coupling->kind == constraint_contact) return contact_takes_part(coupling, at, k);
-    bool has_mode =
-        coupling->kind == constraint_rope || (coupling->pair >= 0 && k == coupling->along_row);
+    bool has_mode = coupling->kind == constraint_rope || (coupling->pair >= 0 && k == coupling->along_row);
     int surface = coupling->surface >= 0 ? at->slip[coupling->surface] : stick;
     bool open = surface != stick &&
                 (surface != loose || k == coupling->first_row); /* rolling without friction continues */

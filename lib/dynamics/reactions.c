@@ -29,7 +29,8 @@ static struct rated multiplier(const struct view *view, const struct coupling *c
     const int first = coupling->first_row, normal = coupling->normal_row;
     const int index = (int)(coupling - view->model->tree->couplings);
     struct rated lambda = {work->rows[first + k].lambda, view->along ? work->z[first + k] : 0};
-    const double share = first + k == coupling->along_row ? tree_rubbing_share(view->model, view->at, index) : 0;
+    const double share =
+        first + k == coupling->along_row ? tree_rubbing_share(view->model, view->at, index) : 0;
     if (share == 0 || !view->along) return lambda;
     double d_mu;
     const struct mode *mode = &view->model->plan.modes[coupling->pair];

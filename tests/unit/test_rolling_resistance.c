@@ -44,14 +44,15 @@ static struct trial open_wheel(const struct wheel *w, double phi, double omega, 
                                const char *body, double until)
 {
     char text[1200];
-    snprintf(text, sizeof text,
-             "fbd: 1\nground: {lines: {floor: {along: %.17g rad}}}\nbodies:\n  wheel:\n    mass: %.17g\n"
-             "    inertia: %.17g\n    motion: planar\n    initial: {x: %.17g, y: %.17g, vx: %.17g, vy: %.17g, "
-             "omega: %.17g}\n    forces: [gravity%s\ncouplings:\n  - roll: {name: tread, body: wheel, on: "
-             "floor, center: [0, 0], radius: %.17g,\n      rolling_resistance: %.17g%s}\nsimulate: {until: "
-             "%.17g}\n",
-             phi, w->m, w->k * w->m * w->R * w->R, -w->R * sin(phi), w->R * cos(phi), w->v * cos(phi),
-             w->v * sin(phi), omega, body, w->R, w->c * w->R, roll, until);
+    snprintf(
+        text, sizeof text,
+        "fbd: 1\nground: {lines: {floor: {along: %.17g rad}}}\nbodies:\n  wheel:\n    mass: %.17g\n"
+        "    inertia: %.17g\n    motion: planar\n    initial: {x: %.17g, y: %.17g, vx: %.17g, vy: %.17g, "
+        "omega: %.17g}\n    forces: [gravity%s\ncouplings:\n  - roll: {name: tread, body: wheel, on: "
+        "floor, center: [0, 0], radius: %.17g,\n      rolling_resistance: %.17g%s}\nsimulate: {until: "
+        "%.17g}\n",
+        phi, w->m, w->k * w->m * w->R * w->R, -w->R * sin(phi), w->R * cos(phi), w->v * cos(phi),
+        w->v * sin(phi), omega, body, w->R, w->c * w->R, roll, until);
     struct trial trial = trial_parse(text);
     trial_start(&trial, NULL);
     trial_finish(&trial);
@@ -179,8 +180,9 @@ static void check_hit(struct checks *checks, struct random_numbers *numbers)
 static void rolling_resistance_has_closed_forms(void **unused)
 {
     (void)unused;
-    static void (*const kinds[])(struct checks *checks, struct random_numbers *numbers) = {
-        check_incline, check_moment, check_force, check_cart, check_slide, check_hit};
+    static void (*const kinds[])(struct checks * checks,
+                                 struct random_numbers * numbers) = {check_incline, check_moment, check_force,
+                                                                     check_cart,    check_slide,  check_hit};
     const int draws = draws_of(100);
     struct random_numbers numbers = {2051};
     struct checks checks = {0};
