@@ -172,6 +172,7 @@ void page_couplings_write(struct text *text, const fbd_result *result, const str
     text_add(text, "\"couplings\":[");
     for (int i = 0; i < count; i++) {
         if (tree->couplings[i].meeting >= 0) continue; /* its shapes and its forces are drawn */
+        if (tree->couplings[i].kind == constraint_resistance) continue; /* its roll is drawn */
         json_comma(text, written++);
         write_coupling(text, record, &tree->couplings[i], &result->start->tree->couplings[i]);
     }

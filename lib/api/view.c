@@ -209,6 +209,7 @@ static bool take_couplings(struct fbd_view *view, const struct fbd_state *state)
     for (int i = 0; view->couplings && i < count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
         const struct coupling_state *start = &state->tree->couplings[i];
+        if (coupling->kind == constraint_resistance) continue; /* its roll is drawn */
         struct view_coupling *seen = &view->couplings[view->coupling_count++];
         seen->coupling = (fbd_coupling){.kind = coupling->law->drawing,
                                         .name = coupling->name,

@@ -96,6 +96,22 @@ static void gear(const struct view *view, const struct coupling *coupling, const
     add_port(view, row, coupling, 1, Q2, negative(t));
 }
 
+/* The relative angle; the couple of a unit multiplier is two forces at the ends of a diameter. */
+static void resistance(const struct view *view, const struct coupling *coupling,
+                       const struct coupling_state *state, struct row *row)
+{
+    const double r = coupling->end[0].radius;
+    const struct vec none = {0, 0};
+    struct jet g = jet_sub(angle_of(view, coupling->end[0].link), angle_of(view, coupling->end[1].link));
+    start_row(row, jet_sub(g, jet_constant(state->zero)));
+    for (int i = 0; i < 4; i++) {
+        const int k = i / 2, side = i % 2 == 0 ? 1 : -1;
+        const struct vec force = {0, (k == 0 ? side : -side) / (2 * r)};
+        row->ports[row->port_count++] =
+            (struct port){coupling->end[k].link, k, {side * r, 0}, force, none, none};
+    }
+}
+
 static struct at_line at_line_of(const struct coupling *coupling, const struct coupling_state *state)
 {
     return (struct at_line){0, coupling->end[0], coupling->end[1], coupling->e, state->side[0], 1};
@@ -133,6 +149,7 @@ const struct constraint_form constraint_forms[constraint_kinds] = {
     [constraint_gear] = {.rows = gear, .start = zero_start},
     [constraint_rack] = {.rows = rack, .start = side_start},
     [constraint_roll] = {.rows = roll, .start = side_start},
+    [constraint_resistance] = {.rows = resistance, .start = zero_start},
     [constraint_slot] = {.rows = slot_row, .start = slot_start, .follow = slot_follow, .left = slot_room},
     [constraint_groove] = {.rows = slot_row, .start = slot_start, .follow = slot_follow, .left = slot_room},
     [constraint_belt] = {.rows = belt_rows,
@@ -285,7 +302,7 @@ void coupling_set_feature(const struct fbd_model *model, const struct instant *a
 
 static const struct row *row_along(const struct fbd_model *model, const struct tree_work *work, int coupling)
 {
-    return &work->rows[model->tree->couplings[coupling].first_row + 1];
+    return &work->rows[model->tree->couplings[coupling].along_row];
 }
 
 static double shortest_strand(const struct fbd_model *model, const struct instant *at, int index)
@@ -344,6 +361,10 @@ double coupling_slip_rounding(const struct fbd_model *model, const struct instan
     size = fmax(size, fabs(row_along(model, at->tree, coupling)->surface));
     /* A body was brought to rest by a projection, with all moving ones; a contact by its impulses. */
     double moves = touches ? 0 : fastest(model->tree, at->tree, reach);
+    if (model->tree->couplings[coupling].kind == constraint_resistance) { /* an angular velocity */
+        size /= reach;
+        moves /= reach;
+    }
     return 64 * DBL_EPSILON * (size + remoteness(model, at, coupling, size)) + 4 * DBL_EPSILON * moves;
 }
 
@@ -362,7 +383,10 @@ struct slip_rate coupling_slip(const struct fbd_model *model, const struct insta
     struct view view = {model, model->tree, at->tree, varied, at, along};
     struct at_line where = at_line_of(coupling, state);
     struct row tangent;
-    row_line(&view, coupling, &where, state->zero, NULL, &tangent);
+    if (coupling->kind == constraint_resistance)
+        resistance(&view, coupling, state, &tangent);
+    else
+        row_line(&view, coupling, &where, state->zero, NULL, &tangent);
     return (struct slip_rate){tangent.g.x1, tangent.g.d1};
 }
 

@@ -18,6 +18,7 @@
  *   slot   g = n . (P - r), r = r(s) the foot of P on the curve, e(s) . (P - r) = 0; for a one-sided slot with
  *          a roller -+n . (P - r) - R
  *   roll   g = n . (C - P) - R, and the rack's row
+ *   rolling resistance  g = theta_C - theta_P; its multiplier is a moment
  *   contact, at a side: as roll, with the side's outward normal; of two circles:
  *          g = |C_1 - C_2| - R_1 - R_2, and R_1 (phi - theta_1) + R_2 (phi - theta_2) along them, phi the
  *          angle of the line of centres

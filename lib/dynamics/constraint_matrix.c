@@ -43,8 +43,7 @@ bool tree_takes_part(const struct tree *tree, const struct instant *at, int k)
     const struct coupling *coupling = &tree->couplings[tree->coupling_of_row[k]];
     if (at->tree->couplings[tree->coupling_of_row[k]].gone) return false;
     if (coupling->kind == constraint_contact) return contact_takes_part(coupling, at, k);
-    bool has_mode =
-        coupling->kind == constraint_rope || (coupling->pair >= 0 && k == coupling->first_row + 1);
+    bool has_mode = coupling->kind == constraint_rope || (coupling->pair >= 0 && k == coupling->along_row);
     int surface = coupling->surface >= 0 ? at->slip[coupling->surface] : stick;
     bool open = surface != stick &&
                 (surface != loose || k == coupling->first_row); /* rolling without friction continues */
@@ -99,24 +98,40 @@ static double row_answer(const struct tree_work *work, const struct tree *tree, 
 static bool is_rubbing(const struct tree *tree, int index, const struct instant *at)
 {
     const struct coupling *coupling = &tree->couplings[index];
-    return coupling->law->surface && !at->tree->couplings[index].gone && coupling->pair >= 0 &&
+    return coupling_rubs(coupling) && !at->tree->couplings[index].gone &&
            slip_side(at->slip[coupling->pair]) != 0 &&
            (coupling->surface < 0 || at->slip[coupling->surface] == stick);
 }
 
 /* The friction of a body that slips on a surface, per normal force: -slip mu_k along its line; 0 if it does
  * not slip. */
-double tree_rubbing_share(const struct fbd_model *model, const struct instant *at, int k)
+double tree_rubbing_share(const struct fbd_model *model, const struct instant *at, int index)
 {
-    const struct coupling *coupling = &model->tree->couplings[model->tree->coupling_of_row[k]];
-    if (at->tree->projecting || k != coupling->first_row) return 0;
-    if (!is_rubbing(model->tree, model->tree->coupling_of_row[k], at)) return 0;
+    const struct coupling *coupling = &model->tree->couplings[index];
+    if (at->tree->projecting || !is_rubbing(model->tree, index, at)) return 0;
     const struct formula *mu = &model->plan.modes[coupling->pair].mu_k;
     return -at->slip[coupling->pair] * at->pull[coupling->pair] *
            friction_coefficient(model, coupling->pair, mu, at, NULL, NULL);
 }
 
-/* With slip the friction acts along another row. */
+/* With slip the friction acts along another row: apply that of coupling `index` for its normal force. */
+static void apply_rubbing(const struct fbd_model *model, const struct instant *at, int index, double normal)
+{
+    double share = index < 0 ? 0 : tree_rubbing_share(model, at, index);
+    if (share == 0) return;
+    row_apply(&at->tree->rows[model->tree->couplings[index].along_row], share * normal, at->tree->x);
+}
+
+/* Is row k a normal force with friction that slips? */
+static bool row_rubs(const struct fbd_model *model, const struct instant *at, int k)
+{
+    const int index = model->tree->coupling_of_row[k];
+    const struct coupling *coupling = &model->tree->couplings[index];
+    if (k != coupling->first_row || coupling->kind == constraint_resistance) return false;
+    return tree_rubbing_share(model, at, index) != 0 ||
+           (coupling->resistance >= 0 && tree_rubbing_share(model, at, coupling->resistance) != 0);
+}
+
 static void apply_unknown(const struct fbd_model *model, const struct instant *at, int k, double size)
 {
     const struct tree *tree = model->tree;
@@ -126,8 +141,10 @@ static void apply_unknown(const struct fbd_model *model, const struct instant *a
         return;
     }
     row_apply(&work->rows[k], size, work->x);
-    double share = tree_rubbing_share(model, at, k);
-    if (share != 0) row_apply(&work->rows[k + 1], share * size, work->x);
+    const int index = tree->coupling_of_row[k];
+    if (k != tree->couplings[index].normal_row) return;
+    apply_rubbing(model, at, index, size);
+    apply_rubbing(model, at, tree->couplings[index].resistance, size);
 }
 
 /* The trees that unknown k joins: their first links. */
@@ -282,7 +299,7 @@ static bool has_rows_only(const struct fbd_model *model, const struct instant *a
     const struct tree_work *work = at->tree;
     for (int p = 0; p < work->count; p++) {
         int k = work->unknown_at[p];
-        if (!unknown_is_row(model->tree, k) || tree_rubbing_share(model, at, k) != 0) return false;
+        if (!unknown_is_row(model->tree, k) || row_rubs(model, at, k)) return false;
     }
     return true;
 }
@@ -378,8 +395,10 @@ void tree_take_multipliers(const struct fbd_model *model, const struct instant *
     struct tree_work *work = at->tree;
     for (int j = 0; j < tree->row_count; j++) work->rows[j].lambda = work->z[j];
     for (int i = 0; i < tree->coupling_count; i++) {
-        int j = tree->couplings[i].first_row;
-        if (is_rubbing(tree, i, at)) work->rows[j + 1].lambda = tree_rubbing_share(model, at, j) * work->z[j];
+        const struct coupling *coupling = &tree->couplings[i];
+        if (is_rubbing(tree, i, at))
+            work->rows[coupling->along_row].lambda =
+                tree_rubbing_share(model, at, i) * work->z[coupling->normal_row];
     }
 }
 
@@ -395,9 +414,9 @@ void tree_apply_variations(const struct fbd_model *model, const struct instant *
         double d_mu;
         friction_coefficient(model, coupling->pair, &model->plan.modes[coupling->pair].mu_k, at, along,
                              &d_mu);
-        row_apply(&work->rows[coupling->first_row + 1],
+        row_apply(&work->rows[coupling->along_row],
                   -at->slip[coupling->pair] * at->pull[coupling->pair] * d_mu *
-                      work->rows[coupling->first_row].lambda,
+                      work->rows[coupling->normal_row].lambda,
                   work->x);
     }
 }

@@ -61,7 +61,7 @@ static int link_of(const struct fbd_model *model, int pair)
 static const struct row *row_of(const struct fbd_state *state, int pair)
 {
     int coupling = state->model->plan.modes[pair].coupling;
-    return coupling < 0 ? NULL : &state->tree->rows[state->model->tree->couplings[coupling].first_row + 1];
+    return coupling < 0 ? NULL : &state->tree->rows[state->model->tree->couplings[coupling].along_row];
 }
 
 /* Solve x for the impulse alone, and set the right-hand side of all active rows. */

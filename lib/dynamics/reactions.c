@@ -26,15 +26,17 @@ struct view {
 static struct rated multiplier(const struct view *view, const struct coupling *coupling, int k)
 {
     const struct tree_work *work = view->at->tree;
-    const int first = coupling->first_row;
+    const int first = coupling->first_row, normal = coupling->normal_row;
+    const int index = (int)(coupling - view->model->tree->couplings);
     struct rated lambda = {work->rows[first + k].lambda, view->along ? work->z[first + k] : 0};
-    const double share = k == 1 ? tree_rubbing_share(view->model, view->at, first) : 0;
+    const double share =
+        first + k == coupling->along_row ? tree_rubbing_share(view->model, view->at, index) : 0;
     if (share == 0 || !view->along) return lambda;
     double d_mu;
     const struct mode *mode = &view->model->plan.modes[coupling->pair];
     friction_coefficient(view->model, coupling->pair, &mode->mu_k, view->at, view->along, &d_mu);
     const double d_share = -view->at->slip[coupling->pair] * view->at->pull[coupling->pair] * d_mu;
-    lambda.rate = share * work->z[first] + d_share * work->rows[first].lambda;
+    lambda.rate = share * work->z[normal] + d_share * work->rows[normal].lambda;
     return lambda;
 }
 

@@ -44,7 +44,7 @@ static void add_bounds_of_mode(struct rest_system *system, int pair)
         double resting = friction_coefficient(model, pair, &mode->mu_s, &system->at, NULL, NULL);
         double moving = friction_coefficient(model, pair, &mode->mu_k, &system->at, NULL, NULL);
         bound.mu = fmax(resting, moving);
-        if (mode->normal_slot < 0) bound.unit = system->length;
+        if (mode->moment) bound.unit = system->length;
         add_bound(system, bound);
     }
     bound.side = 1;

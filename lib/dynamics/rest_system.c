@@ -66,13 +66,23 @@ static void read_reactions(const struct rest_system *system, const double *slots
         r[rest_entry_of_row(system, j)] = system->state->tree->rows[system->rows[j]].lambda;
 }
 
+/* Add to the friction of coupling `index` that slips, for a normal force. */
+static void add_rubbing(struct rest_system *system, int index, double normal)
+{
+    const struct fbd_model *model = system->state->model;
+    const double share = index < 0 ? 0 : tree_rubbing_share(model, &system->at, index);
+    if (share != 0) system->lambda[model->tree->couplings[index].along_row] += share * normal;
+}
+
 /* Add to row j, and to its friction if its body slips. */
 static void add_to_row(struct rest_system *system, size_t j, double step)
 {
-    int row = system->rows[j];
-    double share = tree_rubbing_share(system->state->model, &system->at, row);
+    const struct tree *tree = system->state->model->tree;
+    const int row = system->rows[j], index = tree->coupling_of_row[row];
     system->lambda[row] += step;
-    if (share != 0) system->lambda[row + 1] += share * step;
+    if (row != tree->couplings[index].normal_row) return;
+    add_rubbing(system, index, step);
+    add_rubbing(system, tree->couplings[index].resistance, step);
 }
 
 static void set_columns(struct rest_system *system)

@@ -17,7 +17,7 @@ static enum slip slip_at_rest(const struct fbd_model *model, const struct mode *
 {
     if (friction_is_never(mode)) return slip_plus;
     if (mode->kind == mode_tangent) {
-        const double surface = at->tree->rows[model->tree->couplings[mode->coupling].first_row + 1].surface;
+        const double surface = at->tree->rows[model->tree->couplings[mode->coupling].along_row].surface;
         return surface > 0 ? slip_minus : surface < 0 ? slip_plus : stick;
     }
     if (mode->coupling >= 0 || mode->kind == mode_drive) return stick;

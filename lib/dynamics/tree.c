@@ -173,10 +173,10 @@ void tree_slots(const struct fbd_model *model, const struct instant *at, double 
     for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
         if (coupling->strands > 0) set_strands(model, work, i, slots);
-        if (!coupling_presses(coupling)) continue;
-        slots[coupling->normal_slot] = -work->rows[coupling->first_row].lambda;
-        if (coupling->pair >= 0)
-            slots[model->plan.modes[coupling->pair].hold_slot] = -work->rows[coupling->first_row + 1].lambda;
+        if (coupling_presses(coupling))
+            slots[coupling->normal_slot] = -work->rows[coupling->first_row].lambda;
+        if (coupling_rubs(coupling))
+            slots[model->plan.modes[coupling->pair].hold_slot] = -work->rows[coupling->along_row].lambda;
     }
 }
 

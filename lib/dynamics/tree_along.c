@@ -134,10 +134,9 @@ static void set_coupling_slots(const struct tree *tree, const struct plan *plan,
             slots_along[coupling->slack_slot[0]] = both + half;
             slots_along[coupling->slack_slot[1]] = both - half;
         }
-        if (!coupling_presses(coupling)) continue;
-        slots_along[coupling->normal_slot] = -z[coupling->first_row];
-        if (coupling->pair >= 0)
-            slots_along[plan->modes[coupling->pair].hold_slot] = -z[coupling->first_row + 1];
+        if (coupling_presses(coupling)) slots_along[coupling->normal_slot] = -z[coupling->first_row];
+        if (coupling_rubs(coupling))
+            slots_along[plan->modes[coupling->pair].hold_slot] = -z[coupling->along_row];
     }
 }
 

@@ -171,9 +171,8 @@ static bool answers_wrongly(const struct fbd_state *state)
     const struct instant at = state_instant(state);
     for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
-        if (!coupling->law->surface || tree_rubbing_share(state->model, &at, coupling->first_row) == 0)
-            continue;
-        if (state->tree->diagonal[coupling->first_row] < 0) return true;
+        if (!coupling_rubs(coupling) || tree_rubbing_share(state->model, &at, i) == 0) continue;
+        if (state->tree->diagonal[coupling->normal_row] < 0) return true;
     }
     return false;
 }

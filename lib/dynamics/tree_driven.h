@@ -12,8 +12,8 @@
 /* The row along which a unilateral constraint of a coupling acts. */
 static inline const struct row *hold_row(const struct fbd_state *state, const struct mode *hold)
 {
-    int first = state->model->tree->couplings[hold->coupling].first_row;
-    return &state->tree->rows[first + (hold->kind == mode_tangent)];
+    const struct coupling *coupling = &state->model->tree->couplings[hold->coupling];
+    return &state->tree->rows[hold->kind == mode_tangent ? coupling->along_row : coupling->first_row];
 }
 
 /* The force of a rope is opposite to the gradient of its row. */

@@ -119,7 +119,10 @@ static void hold_still(struct gathered *all, size_t k)
 static double least_answer(const struct fbd_state *state, int pair)
 {
     double mass = 0;
-    if (mode_of(state, pair)->kind != mode_tangent) return 0;
+    const struct mode *mode = mode_of(state, pair);
+    if (mode->kind != mode_tangent ||
+        state->model->tree->couplings[mode->coupling].kind == constraint_resistance)
+        return 0;
     for (int i = 1; i < state->model->tree->count; i++) mass += fabs(state->tree->links[i].mass);
     return mass > 0 ? 1 / mass : 0;
 }

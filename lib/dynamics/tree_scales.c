@@ -57,7 +57,10 @@ void tree_set_scales(const struct tree *tree, struct tree_work *work)
                 if (j > first && work->place[first] >= 0 &&
                     has_arm(&work->rows[first], k, link, row->ports[k].arm))
                     continue;
-                scale = fmax(scale, mobility(tree, work, link, row->ports[k].arm));
+                double size = mobility(tree, work, link, row->ports[k].arm);
+                if (tree->couplings[i].kind == constraint_resistance)
+                    size *= vec_dot(row->ports[k].force, row->ports[k].force);
+                scale = fmax(scale, size);
                 if (link > 0) lightest = fmin(lightest, tree->links[link].mass);
             }
             scale = fmax(scale, work->diagonal[j]);

@@ -48,9 +48,9 @@ bool tree_takes_part(const struct tree *tree, const struct instant *at, int k);
 /* Is no row active, as in free flight? */
 bool tree_rows_are_idle(const struct tree *tree, const struct instant *at);
 
-/* The ratio of the multiplier of the row after row k to that of row k, if the body of row k slips with
- * friction on its surface; else 0. */
-double tree_rubbing_share(const struct fbd_model *model, const struct instant *at, int k);
+/* The ratio of the friction of coupling `index` to its normal force, multipliers of its along_row and
+ * normal_row, if it slips with friction; else 0. */
+double tree_rubbing_share(const struct fbd_model *model, const struct instant *at, int index);
 
 /* After tree_system_solve of work->z: set the multipliers of the rows. */
 void tree_take_multipliers(const struct fbd_model *model, const struct instant *at);

@@ -309,6 +309,12 @@ static void leave_switches(struct run *run)
     if (s) sliding_drop(s);
 }
 
+/* Has its friction no impulse of its own in an impact, or one of a guide? */
+static bool is_hit_indirectly(const struct coupling *coupling)
+{
+    return coupling_is_guide(coupling) || coupling->kind == constraint_resistance;
+}
+
 /* Sticking friction that has got a speed slips. In a series of impacts below the tolerance, `interval` apart,
  * it sticks if its slip until the next one would be negligible: friction at its limit for that time might
  * cause the next impact. */
@@ -321,9 +327,9 @@ static void unstick(struct run *run, double interval)
     const double *fastest = run->recent.anchor + plan_size(&model->plan) + model->plan.n;
     for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
         const struct mode *mode = &model->plan.modes[pair];
-        bool slot = mode->kind == mode_tangent && coupling_is_guide(&tree_of(run)->couplings[mode->coupling]);
-        if (!(slot || mode_is_joint_friction(mode)) || run->state->slip[pair] != stick) continue;
-        double v = slip_velocity(model, pair, &at), before = slot ? 0 : fastest[mode->coordinate];
+        bool row = mode->kind == mode_tangent && is_hit_indirectly(&tree_of(run)->couplings[mode->coupling]);
+        if (!(row || mode_is_joint_friction(mode)) || run->state->slip[pair] != stick) continue;
+        double v = slip_velocity(model, pair, &at), before = row ? 0 : fastest[mode->coordinate];
         if (fabs(v) <= 1e-14 * before) continue;
         if (interval > 0 && fabs(v) * interval <= nobody_sees) continue;
         run->state->slip[pair] = v > 0 ? slip_plus : slip_minus;

@@ -177,7 +177,7 @@ static int pressed_most(const struct run *run, const struct fbd_state *state)
         const struct coupling *coupling = &tree->couplings[i];
         double N = fabs(state->tree->rows[coupling->first_row].lambda);
         if (coupling->kind != constraint_contact ||
-            tree_rubbing_share(run->model, &at, coupling->first_row) == 0)
+            tree_rubbing_share(run->model, &at, (int)(coupling - run->model->tree->couplings)) == 0)
             continue;
         if (N <= most) continue;
         most = N;

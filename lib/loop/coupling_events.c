@@ -33,7 +33,7 @@ static void end_coupling(struct run *run, int watch)
     if (state->tree->couplings[ending->ends].gone) return;
     for (int i = ending->ends; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
-        if (coupling->constraint != constraint) break;
+        if (coupling->constraint != constraint && coupling->kind != constraint_resistance) break;
         state->tree->couplings[i].gone = true;
         state->tree->couplings[i].feature = no_feature;
         const int modes[] = {coupling->pair, coupling->surface};

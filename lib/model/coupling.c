@@ -53,6 +53,9 @@ static struct coupling *add_coupling(struct fbd_model *model, int index, int fro
                                   .place = from,
                                   .pair = -1,
                                   .surface = -1,
+                                  .normal_row = tree->row_count,
+                                  .along_row = tree->row_count + 1,
+                                  .resistance = -1,
                                   .meeting = -1};
     tree->row_count += coupling->row_count;
     for (int k = from; k <= to; k++) coupling->end[coupling->end_count++] = coupling_end_of(model, index, k);
@@ -120,6 +123,16 @@ static void set_line(const struct fbd_model *model, struct coupling *coupling)
     const struct placement *place = &model->bodies[source->body[1]].place;
     coupling->e = vec_turn(place->turn, e);
     coupling->turn += place->angle;
+}
+
+/* Rolling resistance acts along its only row; its normal force is that of the roll before it. */
+static void set_resistance(struct tree *tree)
+{
+    struct coupling *own = &tree->couplings[tree->coupling_count - 1], *roll = own - 1;
+    if (own->kind != constraint_resistance) return;
+    roll->resistance = tree->coupling_count - 1;
+    own->normal_row = roll->first_row;
+    own->along_row = own->first_row;
 }
 
 static const char *body_name(const struct fbd_model *model, int body)
@@ -203,6 +216,7 @@ bool couplings_build(struct fbd_model *model)
             add_rope(model, (int)c);
         else
             set_line(model, add_coupling(model, (int)c, 0, source->end_count - 1));
+        if (source->kind == constraint_resistance) set_resistance(tree);
     }
     if (!meetings_level(model)) return false;
     for (int i = 0; i < tree->coupling_count; i++) {

@@ -45,6 +45,8 @@ struct coupling {
     int strands;                  /* with tension >= 0: 2 of a belt, else 0 */
     int slack_slot[2];            /* slots of minus their tensions */
     int normal_slot;              /* roll, one-sided or rough slot: slot of minus its normal force */
+    int normal_row, along_row;    /* with friction: the rows of its normal force and of the friction */
+    int resistance;               /* roll: the coupling of its rolling resistance, or -1 */
     int load;                     /* roll, rope: its entry in the model's loads */
     int pair;    /* roll, contact: mode of its dry friction; rope: its mode; index into plan.modes, or -1 */
     int surface; /* roll, contact: the mode of its normal force, closed (`stick`) or open; index into
@@ -82,11 +84,18 @@ static inline bool coupling_presses(const struct coupling *coupling)
     return coupling->law->surface || coupling->source->presses != 0;
 }
 
+/* True if it has friction along one of its rows. */
+static inline bool coupling_rubs(const struct coupling *coupling)
+{
+    return coupling->pair >= 0 && coupling->kind != constraint_rope;
+}
+
 /* True for a surface whose impulses are computed with those of contacts and ropes: of a rolling body, or a
  * follower on its cam. */
 static inline bool coupling_takes_impulses(const struct coupling *coupling)
 {
-    return coupling->surface >= 0 && coupling->meeting < 0 && coupling->kind != constraint_capstan;
+    return coupling->surface >= 0 && coupling->meeting < 0 && coupling->kind != constraint_capstan &&
+           coupling->kind != constraint_resistance;
 }
 
 /* A guide is a two-sided slot with friction. */

@@ -42,6 +42,7 @@ static void add_friction(struct builder *builder, struct model_body *body, int i
                         .load = index,
                         .coordinate = body->first,
                         .normal_slot = source->kind == load_friction ? body->normal_slot : -1,
+                        .moment = source->kind != load_friction,
                         .mu_s = builder_formula(builder, &source->mu_s, b, index),
                         .mu_k = builder_formula(builder, &source->mu_k, b, index),
                         .surface_speed = builder_formula(builder, &source->surface_speed, b, index),

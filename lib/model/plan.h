@@ -65,6 +65,7 @@ struct mode {
     enum mode_kind kind;
     int body, load, coordinate;
     int normal_slot; /* -1 for a bearing, whose limits are moments */
+    bool moment;     /* friction of a bearing, or rolling resistance: its force is a moment */
     bool two_sided;  /* a guide: friction is proportional to |N| */
     struct formula mu_s, mu_k, surface_speed;
     bool moving;             /* the surface moves */

@@ -45,6 +45,16 @@ static void plan_surface(struct builder *builder, struct coupling *coupling)
         builder_formula(builder, &coupling->source->surface_speed, body, coupling->load);
 }
 
+/* Rolling resistance is friction with the normal force of its roll. */
+static void plan_resistance(struct builder *builder, struct coupling *coupling)
+{
+    const struct coupling *roll = coupling - 1;
+    coupling->normal_slot = roll->normal_slot;
+    coupling->surface = roll->surface;
+    add_rubbing(builder, coupling);
+    builder->model->plan.modes[coupling->pair].moment = true;
+}
+
 /* A rope is taut or slack. */
 static void plan_rope(struct builder *builder, struct coupling *coupling)
 {
@@ -105,7 +115,7 @@ static void (*const plans[constraint_kinds])(struct builder *builder, struct cou
     [constraint_roll] = plan_surface,    [constraint_slot] = plan_surface,
     [constraint_groove] = plan_groove,   [constraint_belt] = plan_belt,
     [constraint_capstan] = plan_surface, [constraint_rope] = plan_rope,
-    [constraint_contact] = plan_surface,
+    [constraint_contact] = plan_surface, [constraint_resistance] = plan_resistance,
 };
 
 void plan_couplings(struct builder *builder)

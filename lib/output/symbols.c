@@ -55,9 +55,10 @@ static bool is_corner(const struct coupling *coupling, int k)
     return coupling->law->way && !coupling->law->strands && k > 0 && k + 1 < coupling->end_count;
 }
 
-/* True for the stop of a pivot. */
+/* True for rolling resistance, and for the stop of a pivot. */
 static bool stops_turning(const struct fbd_model *model, const struct coupling *coupling)
 {
+    if (coupling->kind == constraint_resistance) return true;
     return coupling->kind == constraint_contact && coupling->source->contact.stop != 0 &&
            model->bodies[coupling->end[0].body].joint->has_axis;
 }

@@ -159,10 +159,18 @@ static void several_detail(const struct run_event *event, const char *name, cons
             name);
 }
 
+/* Is it friction of a bearing, or rolling resistance? */
+static bool load_is_moment(const struct fbd_model *model, int load)
+{
+    for (size_t i = 0; i < model->plan.mode_count; i++)
+        if (model->plan.modes[i].load == load) return model->plan.modes[i].moment;
+    return false;
+}
+
 void event_detail(const struct fbd_model *model, const struct run_event *event, char *detail, size_t size)
 {
     const char *name = event_name(model, event);
-    bool moment = event->load >= 0 && model->loads[event->load].source->kind == moment_friction;
+    bool moment = event->load >= 0 && load_is_moment(model, event->load);
     const char *unit = moment ? moment_unit(model) : force_unit(model);
     switch (event->kind) {
     case FBD_EVENT_BREAKAWAY:

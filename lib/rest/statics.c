@@ -104,7 +104,7 @@ static const char *name_limit(struct fbd_statics *statics, const struct rest_lim
 static const char *limit_unit(const struct fbd_model *model, const struct rest_limit *limit)
 {
     bool si = model->scene->units == unit_si;
-    bool moment = limit->kind == limit_friction && model->plan.modes[limit->index].normal_slot < 0;
+    bool moment = limit->kind == limit_friction && model->plan.modes[limit->index].moment;
     return moment ? (si ? "N*m" : "lbf*ft") : (si ? "N" : "lbf");
 }
 

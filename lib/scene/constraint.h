@@ -23,22 +23,23 @@ struct coupling_keys {
     const struct node *force;             /* actuator */
     double stiffness, free_length, coefficient, length, radius, tension, along;
     bool inside, crossed, closed;
-    struct value mu_s, mu_k, restitution, reel, moment, surface_speed;
+    struct value mu_s, mu_k, restitution, reel, moment, surface_speed, resistance;
     int law, side; /* enum impact_law, enum contact_side */
 };
 
 /* Kinds of constraints between points or angles of bodies. */
 enum constraint_kind {
     /* in the order of --explain */
-    constraint_pin,     /* two points coincide */
-    constraint_rod,     /* constant distance of two points */
-    constraint_gear,    /* two circles roll on each other without slip; radius below zero: internal teeth */
-    constraint_rack,    /* a circle rolls on a line of a body without slip */
-    constraint_roll,    /* a circle on a line of the ground or of a body */
-    constraint_slot,    /* a point on a line or curve of a body */
-    constraint_groove,  /* the same with friction */
-    constraint_belt,    /* a belt round two discs */
-    constraint_capstan, /* a rope with friction on a disc */
+    constraint_pin,  /* two points coincide */
+    constraint_rod,  /* constant distance of two points */
+    constraint_gear, /* two circles roll on each other without slip; radius below zero: internal teeth */
+    constraint_rack, /* a circle rolls on a line of a body without slip */
+    constraint_roll, /* a circle on a line of the ground or of a body */
+    constraint_resistance, /* the rolling resistance of the roll before it: a moment between both bodies */
+    constraint_slot,       /* a point on a line or curve of a body */
+    constraint_groove,     /* the same with friction */
+    constraint_belt,       /* a belt round two discs */
+    constraint_capstan,    /* a rope with friction on a disc */
     constraint_rope,    /* the path through all points, over discs and ground points, has constant length */
     constraint_contact, /* unilateral: two bodies, or a body and the ground */
     constraint_kinds

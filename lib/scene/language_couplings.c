@@ -144,6 +144,8 @@ static const struct field roll_fields[] = {
                 "coefficient of kinetic friction"),
     FIELD_VALUE(COUPLING(surface_speed), "surface_speed", a_velocity, stored,
                 "of the surface along the line, as of a conveyor belt; an expression of t; default 0"),
+    FIELD_VALUE(COUPLING(resistance), "rolling_resistance", a_length, not_negative | stored,
+                "its arm b: a moment of at most b N against rolling; default 0"),
 };
 static const struct group roll_group =
     CONSTRAINT_GROUP("`roll`", roll_fields, "a round body on a line; without coefficients it never slips");
@@ -268,6 +270,12 @@ const struct constraint_law constraint_laws[constraint_kinds] = {
         .rows = 2, .row_names = {{"", ".normal"}, {"", ".friction"}}, .end_names = {".normal", ".friction"},
         .surface = true, .line = true,
         .load = always_load, .load_kind = load_normal, .load_name = ".friction"},
+    [constraint_resistance] = {
+        .drawing = "roll", .letters = {"M"},
+        .words = "rolling resistance: a moment against rolling, at most its arm times the normal force",
+        .not_as_c = "rolling is a constraint beside the joints",
+        .rows = 1,
+        .load = always_load, .load_kind = load_normal},
     [constraint_slot] = {
         .read = slot_read, .drawing = "slot", .letters = {"N"},
         .words = "slot: a point stays on a line or curve of another body",

@@ -28,6 +28,7 @@ static int part_called(const char *name)
 static bool has_part(const struct constraint *constraint, enum reaction_part part)
 {
     switch (constraint->kind) {
+    case constraint_resistance:
     case constraint_belt:
     case constraint_capstan: return false;
     case constraint_rod:

@@ -37,6 +37,19 @@ static bool share_friction(struct reader *reader, const struct node *node, const
     return true;
 }
 
+/* The rolling resistance of a roll is a constraint of its own behind it, with its arm as the coefficient. */
+static void add_resistance(struct scene *scene, const struct coupling_keys *keys)
+{
+    if (!keys->resistance.expr) return;
+    const struct constraint *roll = &scene->constraints[scene->constraint_count - 1];
+    struct constraint *own = &scene->constraints[scene->constraint_count++];
+    *own = *roll;
+    own->kind = constraint_resistance;
+    own->mu_s = own->mu_k = keys->resistance;
+    own->surface_speed = (struct value){0};
+    own->ends = false;
+}
+
 static bool read_constraint(struct reader *reader, const struct chosen *chosen,
                             const struct coupling_keys *keys, struct constraint *constraint)
 {
@@ -103,6 +116,7 @@ static bool read_coupling(struct reader *reader, const struct node *node, bool c
         if (!read_constraint(reader, &chosen, &keys, constraint)) return false;
         name->body[0] = constraint->body[0];
         name->body[1] = constraint->body[constraint->end_count - 1];
+        add_resistance(scene, &keys);
         return true;
     }
     struct force_coupling *coupling = &scene->force_couplings[scene->force_coupling_count++];
@@ -128,6 +142,17 @@ static bool read_list(struct reader *reader, const struct node *list, bool conta
     return fine;
 }
 
+/* The name of a constraint; that of its rolling resistance follows from it. Returns the next constraint. */
+static size_t name_constraint(struct reader *reader, size_t index, const char *name)
+{
+    struct scene *scene = reader->scene;
+    scene->constraints[index++].name = name;
+    if (index == scene->constraint_count || scene->constraints[index].kind != constraint_resistance)
+        return index;
+    scene->constraints[index].name = arena_printf(reader->arena, "%s.resistance", name);
+    return index + 1;
+}
+
 bool couplings_read(struct reader *reader, const struct node *couplings, const struct node *contacts)
 {
     struct scene *scene = reader->scene;
@@ -135,7 +160,7 @@ bool couplings_read(struct reader *reader, const struct node *couplings, const s
     size_t stops = stops_count(reader), load = 0, constraint = 0;
     count += stops;
     scene->force_couplings = ARENA_ARRAY(reader->arena, count, struct force_coupling);
-    scene->constraints = ARENA_ARRAY(reader->arena, count, struct constraint);
+    scene->constraints = ARENA_ARRAY(reader->arena, 2 * count, struct constraint);
     struct coupling_name *names = ARENA_ARRAY(reader->arena, count, struct coupling_name);
     if (!scene->force_couplings || !scene->constraints || !names) return false;
     bool fine = read_list(reader, couplings, false, names);
@@ -144,8 +169,10 @@ bool couplings_read(struct reader *reader, const struct node *couplings, const s
     if (!fine || !couplings_name(reader, names, count)) return false;
     for (size_t i = 0; i < count; i++) {
         bool force = names[i].kind->value < coupling_constraint;
-        *(force ? &scene->force_couplings[load++].load.name : &scene->constraints[constraint++].name) =
-            names[i].name;
+        if (force)
+            scene->force_couplings[load++].load.name = names[i].name;
+        else
+            constraint = name_constraint(reader, constraint, names[i].name);
     }
     return true;
 }

@@ -5,6 +5,7 @@
  * Sizes are of the order of one, so that a scene of a second is neither stiff nor chaotic, and rounding stays
  * rounding. Loops are closed by construction: the second point of a pin is put where the first one is,
  * lengths are those of the start, and velocities are brought onto all conditions by the independent assembly.
+ * Rolling resistance is left out: its closed forms are in tests/unit/test_rolling_resistance.c.
  */
 #ifndef CROSS_GENERATE_H
 #define CROSS_GENERATE_H
