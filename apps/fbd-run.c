@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "complain.h"
+#include "cutting.h"
 #include "examples.h"
 #include "fbd_export.h"
 #include "fbd_grade.h"
@@ -219,12 +220,26 @@ static enum exit_code show_equations(const struct options *options, fbd_state *s
     return code;
 }
 
+/* A scene in motion needs an admissible state; one at rest may be moved to its equilibrium. */
+static enum exit_code show_cut(const struct options *options, fbd_state *state, fbd_errors *errors)
+{
+    const bool rests = options->action == action_static;
+    if (!rests && options->at_count == 0 && !fbd_state_close(state, errors)) return exit_failed;
+    if (rests && options->settle && !fbd_find_equilibrium(state, errors)) return exit_failed;
+    return cutting(options, state, errors);
+}
+
 static enum exit_code show_state(const fbd_model *model, const struct options *options, fbd_errors *errors)
 {
     fbd_state *state = fbd_state_new(model);
     if (!state) return no_memory();
     fbd_state_show_degrees(state, options->degrees);
     enum exit_code code = place(model, options, state, errors);
+    if (code == exit_done && options->cut) {
+        code = show_cut(options, state, errors);
+        fbd_state_free(state);
+        return code;
+    }
     if (code == exit_done && options->action == action_equations && !fbd_state_close(state, errors))
         code = exit_failed;
     if (code == exit_done && options->action == action_equations) {
@@ -376,6 +391,7 @@ static enum exit_code act(const fbd_model *model, const struct options *options,
 {
     if (options->find) return finding(model, options, errors);
     if (options->fit) return fitting(model, options, errors);
+    if (options->cut) return show_state(model, options, errors);
     switch (options->action) {
     case action_check: return check(model, errors);
     case action_check_hand: return check_hand(model, options, errors);

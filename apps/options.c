@@ -66,6 +66,7 @@ enum {
     option_fmu_version,
     option_full,
     option_degrees,
+    option_cut,
     option_find,
     option_runs,
     option_fit,
@@ -125,6 +126,7 @@ static const struct option long_options[] = {
     {"fmu-version", required_argument, NULL, option_fmu_version},
     {"full", no_argument, NULL, option_full},
     {"degrees", no_argument, NULL, option_degrees},
+    {"cut", required_argument, NULL, option_cut},
     {"find", required_argument, NULL, option_find},
     {"runs", required_argument, NULL, option_runs},
     {"fit", required_argument, NULL, option_fit},
@@ -226,6 +228,7 @@ static bool take_drawing(struct options *options, int option)
     case option_details: options->details = true; return true;
     case option_page: options->page = optarg; return true;
     case option_exam: options->exam = true; return true;
+    case option_cut: options->cut = optarg; return true;
     case option_find: options->find = optarg; return true;
     case option_fit: options->fit = optarg; return true;
     case option_parameters: options->parameters = optarg; return true;
@@ -399,6 +402,21 @@ static bool find_agrees(const struct options *options)
     return true;
 }
 
+/* Section forces are those of a state, with outputs of their own. */
+static bool cut_agrees(const struct options *options)
+{
+    if (options->action != action_run && options->action != action_static)
+        return usage("--cut goes with a run, at its start or at the time of --at, and with --static", "");
+    if (options->find || options->fit || options->csv || options->html || options->note || options->plot ||
+        options->gnuplot || options->watch || options->full || options->run.error_bars ||
+        shapes_drawing(options, false, false) || options->drawing.solution)
+        return usage(
+            "--cut goes with --at, --static, --settle, --svg, --json, --set, --without and the options of "
+            "the simulation only",
+            "");
+    return true;
+}
+
 /* The outputs of a run. */
 static bool outputs_agree(const struct options *options)
 {
@@ -428,8 +446,9 @@ static bool options_agree(const struct options *options)
     bool stands_still = options->action != action_run;
     bool draws = options->action == action_equations || options->action == action_linearize;
     bool rests = options->action == action_static;
-    if (options->at_count && !draws && !rests && !options->svg)
-        return usage("--at goes with --svg, --equations, --linearize or --static", "");
+    if (options->cut && !cut_agrees(options)) return false;
+    if (options->at_count && !draws && !rests && !options->svg && !options->cut)
+        return usage("--at goes with --svg, --cut, --equations, --linearize or --static", "");
     if (options->svg && stands_still && !draws && !rests)
         return usage("--svg belongs to a run, --equations, --static or --linearize", "");
     if ((options->find || options->fit) && !find_agrees(options)) return false;

@@ -59,6 +59,8 @@ const char options_help_without_run[] =
     "  --at TIME|NAME=VALUE for these three and for --svg: at this time of the run, or with these "
     "coordinates\n"
     "                       (may be repeated)\n"
+    "  --cut BODY[=PLACE]   normal force, shear force and bending moment along a straight body, or at a point\n"
+    "                       or a distance from its first end (beam='1.2 m'); --svg draws them\n"
     "  --find QUESTION      the values of a parameter at which a run changes or has a result, as\n"
     "                       'mu: block slips', 'P = 0..40 N: crate tips', 'v0 = 5..20 m/s: ball.x = 12 m';\n"
     "                       with --static those at which the equilibrium ceases\n"

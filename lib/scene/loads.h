@@ -122,9 +122,13 @@ enum load_kind {
     load_actuator, /* not listed: a given force between two bodies, under `couplings` */
 };
 
-/* A distributed load along a line: its length, and the distance of the resultant from its start. */
+/* A distributed load along a line, a force per length w(s). */
 struct spread {
-    double length, center;
+    double length, center; /* of the line; distance of the resultant from its start */
+    double force;          /* the integral of w */
+    struct vec from, to;   /* ends of the line, points of the body */
+    const struct expr *w;  /* of s in slot 1; NULL for a trapezoid */
+    double ends[2];        /* and its values at both ends */
 };
 
 struct law;
