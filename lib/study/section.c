@@ -62,15 +62,17 @@ static double sample_at(double t, void *context)
     return density[sample->which];
 }
 
-/* The greatest difference between density and polynomial at places between the nodes, by the greatest density. */
+/* Compare density and polynomial at places between the nodes, by the loads on all of the body: the terms of a density may
+ * cancel, as weight and inertia do. */
 static bool is_met(struct sample *sample, const struct polynomial *fitted)
 {
     const double enough = 1e-12;
-    double off = 0, size = 0;
+    const fbd_section *section = sample->work->section;
+    const double size = section->size[sample->which == 2 ? section_M : section_N] / section->length;
+    double off = 0;
     for (int i = -10; i <= 10; i++) {
-        const double t = i / 10.5, value = sample_at(t, sample);
-        off = fmax(off, fabs(polynomial_at(fitted, t) - value));
-        size = fmax(size, fabs(value));
+        const double t = i / 10.5;
+        off = fmax(off, fabs(polynomial_at(fitted, t) - sample_at(t, sample)));
     }
     return off <= enough * size;
 }

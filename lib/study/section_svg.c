@@ -124,11 +124,11 @@ static void draw_area(struct sheet *sheet)
 static void draw_places(struct sheet *sheet)
 {
     const fbd_section *section = sheet->section;
+    const fbd_section_extreme *extremes = section->extremes[sheet->force];
     for (size_t i = 0; i < section->load_count; i++) {
-        const double x = across(sheet, section->loads[i].x);
         if (i == 0 || section->loads[i].x != section->loads[i - 1].x)
-            svg_line(&sheet->text, "reference", (struct vec){x, sheet->top},
-                     (struct vec){x, sheet->top + plot_height});
+            svg_line(&sheet->text, "reference", at(sheet, section->loads[i].x, fmax(extremes[1].value, 0)),
+                     at(sheet, section->loads[i].x, fmin(extremes[0].value, 0)));
     }
 }
 
