@@ -6,11 +6,26 @@
 #include <string.h>
 
 #include "complain.h"
-#include "fbd_study.h"
+#include "fbd_section.h"
 #include "picture.h"
 #include "place.h"
 #include "standard_streams.h"
 #include "whole_file.h"
+
+bool cutting_agrees(const struct options *options, const struct command_line *line, bool drawing)
+{
+    if (options->action != action_run && options->action != action_static)
+        return command_line_usage(
+            line, "--cut goes with a run, at its start or at the time of --at, and with --static", "");
+    if (options->find || options->fit || options->csv || options->html || options->note || options->plot ||
+        options->gnuplot || options->watch || options->full || options->run.error_bars || drawing ||
+        options->drawing.solution)
+        return command_line_usage(line,
+                                  "--cut goes with --at, --static, --settle, --svg, --json, --set, --without "
+                                  "and the options of the simulation only",
+                                  "");
+    return true;
+}
 
 /* Print a text of the library, or write it to a file, and free it. */
 static enum exit_code write_text(const char *path, char *text)
@@ -58,8 +73,16 @@ static enum exit_code blame(fbd_errors *errors)
     return exit_failed;
 }
 
+/* A scene in motion needs an admissible state; one at rest may be moved to its equilibrium. */
+static bool find_state(const struct options *options, fbd_state *state, fbd_errors *errors)
+{
+    if (options->action == action_static) return !options->settle || fbd_find_equilibrium(state, errors);
+    return options->at_count > 0 || fbd_state_close(state, errors);
+}
+
 enum exit_code cutting(const struct options *options, fbd_state *state, fbd_errors *errors)
 {
+    if (!find_state(options, state, errors)) return exit_failed;
     const char *equals = strchr(options->cut, '=');
     const size_t length = equals ? (size_t)(equals - options->cut) : strlen(options->cut);
     char *body = strndup(options->cut, length);

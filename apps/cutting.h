@@ -7,7 +7,11 @@
 
 #include "options.h"
 
-/* Write the section forces of the body of --cut at a state, which is at rest with --static. */
+/* False, with a message, when --cut is given with options that have no effect there; `drawing`: those of --svg. */
+bool cutting_agrees(const struct options *options, const struct command_line *line, bool drawing);
+
+/* Write the section forces of the body of --cut at the state of --at: of the motion, which must be admissible, or with
+ * --static at rest. */
 enum exit_code cutting(const struct options *options, fbd_state *state, fbd_errors *errors);
 
 #endif

@@ -220,13 +220,25 @@ static enum exit_code show_equations(const struct options *options, fbd_state *s
     return code;
 }
 
-/* A scene in motion needs an admissible state; one at rest may be moved to its equilibrium. */
-static enum exit_code show_cut(const struct options *options, fbd_state *state, fbd_errors *errors)
+static enum exit_code show_linear(const struct options *options, fbd_state *state, fbd_errors *errors)
 {
-    const bool rests = options->action == action_static;
-    if (!rests && options->at_count == 0 && !fbd_state_close(state, errors)) return exit_failed;
-    if (rests && options->settle && !fbd_find_equilibrium(state, errors)) return exit_failed;
-    return cutting(options, state, errors);
+    fbd_linearization *linear = fbd_linearize(state, errors);
+    enum exit_code code = linear ? exit_done : exit_failed;
+    if (linear && !data_alone(options)) code = print(fbd_linearization_text(linear), exit_done);
+    if (code == exit_done && options->json) code = write_json(options, fbd_linearization_json(linear));
+    if (code == exit_done && options->svg) code = write_picture(options->svg, fbd_linearization_svg(linear));
+    fbd_linearization_free(linear);
+    return code;
+}
+
+static enum exit_code show_placed(const struct options *options, fbd_state *state, fbd_errors *errors)
+{
+    if (options->cut) return cutting(options, state, errors);
+    if (options->action == action_static) return show_statics(options, state, errors);
+    if (options->action == action_linearize) return show_linear(options, state, errors);
+    if (!fbd_state_close(state, errors)) return exit_failed;
+    const enum exit_code code = show_equations(options, state);
+    return code == exit_done ? draw_state(options, state, errors) : code;
 }
 
 static enum exit_code show_state(const fbd_model *model, const struct options *options, fbd_errors *errors)
@@ -235,27 +247,7 @@ static enum exit_code show_state(const fbd_model *model, const struct options *o
     if (!state) return no_memory();
     fbd_state_show_degrees(state, options->degrees);
     enum exit_code code = place(model, options, state, errors);
-    if (code == exit_done && options->cut) {
-        code = show_cut(options, state, errors);
-        fbd_state_free(state);
-        return code;
-    }
-    if (code == exit_done && options->action == action_equations && !fbd_state_close(state, errors))
-        code = exit_failed;
-    if (code == exit_done && options->action == action_equations) {
-        code = show_equations(options, state);
-        if (code == exit_done) code = draw_state(options, state, errors);
-    } else if (code == exit_done && options->action == action_static) {
-        code = show_statics(options, state, errors);
-    } else if (code == exit_done) {
-        fbd_linearization *linear = fbd_linearize(state, errors);
-        code = linear ? exit_done : exit_failed;
-        if (linear && !data_alone(options)) code = print(fbd_linearization_text(linear), exit_done);
-        if (code == exit_done && options->json) code = write_json(options, fbd_linearization_json(linear));
-        if (code == exit_done && options->svg)
-            code = write_picture(options->svg, fbd_linearization_svg(linear));
-        fbd_linearization_free(linear);
-    }
+    if (code == exit_done) code = show_placed(options, state, errors);
     fbd_state_free(state);
     return code;
 }

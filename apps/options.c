@@ -5,6 +5,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "cutting.h"
 #include "examples.h"
 #include "fbd_export.h"
 #include "fmu.h"
@@ -185,15 +186,6 @@ static bool take_runs(size_t *runs)
     return true;
 }
 
-static bool fmu_can_be_made(void)
-{
-    size_t length;
-    if (fmu_binary(&length)) return true;
-    return usage("this fbd was built without --fmu: on Linux it needs the archives of GSL and libyaml at "
-                 "build time (Debian: libgsl-dev, libyaml-dev)",
-                 "");
-}
-
 static bool live_can_be_made(void)
 {
     if (fbd_has_live()) return true;
@@ -293,7 +285,9 @@ static bool take_option(const struct command_line *unused, int option, void *con
     case option_examples: return choose_action(options, action_examples);
     case option_example: options->example = optarg; return choose_action(options, action_example);
     case option_handout: return choose_action(options, action_handout);
-    case option_fmu: options->fmu = optarg; return fmu_can_be_made() && choose_action(options, action_fmu);
+    case option_fmu:
+        options->fmu = optarg;
+        return fmu_can_be_made(&line) && choose_action(options, action_fmu);
     case option_fmu_version: return take_fmu_version(&options->fmu_version);
     default: return take_drawing(options, option);
     }
@@ -402,21 +396,6 @@ static bool find_agrees(const struct options *options)
     return true;
 }
 
-/* Section forces are those of a state, with outputs of their own. */
-static bool cut_agrees(const struct options *options)
-{
-    if (options->action != action_run && options->action != action_static)
-        return usage("--cut goes with a run, at its start or at the time of --at, and with --static", "");
-    if (options->find || options->fit || options->csv || options->html || options->note || options->plot ||
-        options->gnuplot || options->watch || options->full || options->run.error_bars ||
-        shapes_drawing(options, false, false) || options->drawing.solution)
-        return usage(
-            "--cut goes with --at, --static, --settle, --svg, --json, --set, --without and the options of "
-            "the simulation only",
-            "");
-    return true;
-}
-
 /* The outputs of a run. */
 static bool outputs_agree(const struct options *options)
 {
@@ -446,7 +425,7 @@ static bool options_agree(const struct options *options)
     bool stands_still = options->action != action_run;
     bool draws = options->action == action_equations || options->action == action_linearize;
     bool rests = options->action == action_static;
-    if (options->cut && !cut_agrees(options)) return false;
+    if (options->cut && !cutting_agrees(options, &line, shapes_drawing(options, false, false))) return false;
     if (options->at_count && !draws && !rests && !options->svg && !options->cut)
         return usage("--at goes with --svg, --cut, --equations, --linearize or --static", "");
     if (options->svg && stands_still && !draws && !rests)

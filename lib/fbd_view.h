@@ -448,23 +448,6 @@ typedef struct fbd_listed_force {
  * the last body, SIZE_MAX when memory is out. `forces` may be NULL to count only. */
 FBD_API size_t fbd_state_forces(fbd_state *state, size_t body, fbd_listed_force *forces, size_t room);
 
-/* The line of a distributed load, whose resultant is a force of the diagram. */
-typedef struct fbd_spread {
-    double from[2], to[2]; /* points of the body, in its frame; NAN for a force that is not distributed */
-    double length;         /* 0 for such a force */
-} fbd_spread;
-
-FBD_API fbd_spread fbd_model_spread(const fbd_model *model, size_t body, size_t force);
-
-/* The part of the resultant per length at the distance s from the start of the line: its integral is 1, and 0 for
- * a load of nothing; NAN for a force that is not distributed. */
-FBD_API double fbd_model_spread_density(const fbd_model *model, size_t body, size_t force, double s);
-
-/* The ends of the intervals of s on which that is smooth, 0 and the length included. Fills at most `room` of them;
- * returns their number, 0 for a force that is not distributed or when memory is out. */
-FBD_API size_t fbd_model_spread_ends(const fbd_model *model, size_t body, size_t force, double *ends,
-                                     size_t room);
-
 /* A force by the name that derivations (`hand`) use for it. */
 typedef struct fbd_named_force {
     size_t force; /* index in the diagram; SIZE_MAX when memory is out */

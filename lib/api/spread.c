@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "expr/pieces.h"
-#include "fbd_view.h"
+#include "fbd_section.h"
 #include "model/model.h"
 
 static const struct spread *spread_at(const fbd_model *model, size_t body, size_t force)

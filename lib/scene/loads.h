@@ -62,7 +62,8 @@ struct part {
     double side[3];      /* prism: a, b, c */
     struct vec center;   /* its centre of mass in the body frame */
     double angle;        /* of the shape's x axis in the body frame [rad] */
-    double inertia;      /* shape_given: moment of inertia ... */
+    double gyration;     /* shape_given: radius of gyration; 0 if not given */
+    double inertia;      /* shape_given: moment of inertia, where that is 0 ... */
     struct point about;  /* ... about this point (point_G: about its own centre) */
     bool about_pivot;    /* ... or about the point on the pivot */
     double rim;          /* shape_given that rolls: its radius, for drawings, about `hub`; else 0 */

@@ -23,7 +23,7 @@
 
 #include "base/arena.h"
 #include "base/vec.h"
-#include "fbd_study.h"
+#include "fbd_section.h"
 #include "fbd_view.h"
 #include "study/polynomial.h"
 
@@ -61,7 +61,7 @@ struct fbd_section {
     fbd_section_extreme extremes[section_forces][2];
 };
 
-/* Replace what is at round-off level by 0. */
+/* A value at round-off level is 0. */
 double section_rounded(const fbd_section *section, enum section_force force, double value);
 
 /* The unit of a section force. */

@@ -55,7 +55,7 @@ static void add_place(struct section_work *work, double x)
     work->places[work->place_count++] = fmin(fmax(x, 0), work->section->length);
 }
 
-/* What acts beyond an end acts on the end, by a part that is rigid. */
+/* A load beyond an end acts on that end, by a part that is rigid. */
 static void add_load(struct section_work *work, const char *name, struct vec p, struct vec f, double couple)
 {
     fbd_section *section = work->section;

@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "fbd_study.h"
+#include "fbd_section.h"
 #include "random_numbers.h"
 #include "run_checks.h"
 #include "study/polynomial.h"
