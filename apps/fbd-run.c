@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "complain.h"
+#include "cutting.h"
 #include "examples.h"
 #include "fbd_export.h"
 #include "fbd_grade.h"
@@ -219,28 +220,34 @@ static enum exit_code show_equations(const struct options *options, fbd_state *s
     return code;
 }
 
+static enum exit_code show_linear(const struct options *options, fbd_state *state, fbd_errors *errors)
+{
+    fbd_linearization *linear = fbd_linearize(state, errors);
+    enum exit_code code = linear ? exit_done : exit_failed;
+    if (linear && !data_alone(options)) code = print(fbd_linearization_text(linear), exit_done);
+    if (code == exit_done && options->json) code = write_json(options, fbd_linearization_json(linear));
+    if (code == exit_done && options->svg) code = write_picture(options->svg, fbd_linearization_svg(linear));
+    fbd_linearization_free(linear);
+    return code;
+}
+
+static enum exit_code show_placed(const struct options *options, fbd_state *state, fbd_errors *errors)
+{
+    if (options->cut) return cutting(options, state, errors);
+    if (options->action == action_static) return show_statics(options, state, errors);
+    if (options->action == action_linearize) return show_linear(options, state, errors);
+    if (!fbd_state_close(state, errors)) return exit_failed;
+    const enum exit_code code = show_equations(options, state);
+    return code == exit_done ? draw_state(options, state, errors) : code;
+}
+
 static enum exit_code show_state(const fbd_model *model, const struct options *options, fbd_errors *errors)
 {
     fbd_state *state = fbd_state_new(model);
     if (!state) return no_memory();
     fbd_state_show_degrees(state, options->degrees);
     enum exit_code code = place(model, options, state, errors);
-    if (code == exit_done && options->action == action_equations && !fbd_state_close(state, errors))
-        code = exit_failed;
-    if (code == exit_done && options->action == action_equations) {
-        code = show_equations(options, state);
-        if (code == exit_done) code = draw_state(options, state, errors);
-    } else if (code == exit_done && options->action == action_static) {
-        code = show_statics(options, state, errors);
-    } else if (code == exit_done) {
-        fbd_linearization *linear = fbd_linearize(state, errors);
-        code = linear ? exit_done : exit_failed;
-        if (linear && !data_alone(options)) code = print(fbd_linearization_text(linear), exit_done);
-        if (code == exit_done && options->json) code = write_json(options, fbd_linearization_json(linear));
-        if (code == exit_done && options->svg)
-            code = write_picture(options->svg, fbd_linearization_svg(linear));
-        fbd_linearization_free(linear);
-    }
+    if (code == exit_done) code = show_placed(options, state, errors);
     fbd_state_free(state);
     return code;
 }
@@ -376,6 +383,7 @@ static enum exit_code act(const fbd_model *model, const struct options *options,
 {
     if (options->find) return finding(model, options, errors);
     if (options->fit) return fitting(model, options, errors);
+    if (options->cut) return show_state(model, options, errors);
     switch (options->action) {
     case action_check: return check(model, errors);
     case action_check_hand: return check_hand(model, options, errors);

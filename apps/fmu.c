@@ -8,6 +8,16 @@
 #include "fbd_export.h"
 #include "whole_file.h"
 
+bool fmu_can_be_made(const struct command_line *line)
+{
+    size_t length;
+    if (fmu_binary(&length)) return true;
+    return command_line_usage(line,
+                              "this fbd was built without --fmu: on Linux it needs the archives of GSL and "
+                              "libyaml at build time (Debian: libgsl-dev, libyaml-dev)",
+                              "");
+}
+
 /* Choose the exit code: an error with a position is one of the file, others are of the command line. */
 static enum exit_code blame(fbd_errors *errors)
 {

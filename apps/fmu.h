@@ -10,6 +10,9 @@
 /* Write the FMU of the model to options->fmu. */
 enum exit_code write_fmu(const fbd_model *model, const struct options *options, fbd_errors *errors);
 
+/* False, with a message, where this program was built without. */
+bool fmu_can_be_made(const struct command_line *line);
+
 /* The binary of an FMU, embedded in this program; NULL when it was built without. */
 const char *fmu_binary(size_t *length);
 

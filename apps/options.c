@@ -5,6 +5,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "cutting.h"
 #include "examples.h"
 #include "fbd_export.h"
 #include "fmu.h"
@@ -66,6 +67,7 @@ enum {
     option_fmu_version,
     option_full,
     option_degrees,
+    option_cut,
     option_find,
     option_runs,
     option_fit,
@@ -125,6 +127,7 @@ static const struct option long_options[] = {
     {"fmu-version", required_argument, NULL, option_fmu_version},
     {"full", no_argument, NULL, option_full},
     {"degrees", no_argument, NULL, option_degrees},
+    {"cut", required_argument, NULL, option_cut},
     {"find", required_argument, NULL, option_find},
     {"runs", required_argument, NULL, option_runs},
     {"fit", required_argument, NULL, option_fit},
@@ -183,15 +186,6 @@ static bool take_runs(size_t *runs)
     return true;
 }
 
-static bool fmu_can_be_made(void)
-{
-    size_t length;
-    if (fmu_binary(&length)) return true;
-    return usage("this fbd was built without --fmu: on Linux it needs the archives of GSL and libyaml at "
-                 "build time (Debian: libgsl-dev, libyaml-dev)",
-                 "");
-}
-
 static bool live_can_be_made(void)
 {
     if (fbd_has_live()) return true;
@@ -226,6 +220,7 @@ static bool take_drawing(struct options *options, int option)
     case option_details: options->details = true; return true;
     case option_page: options->page = optarg; return true;
     case option_exam: options->exam = true; return true;
+    case option_cut: options->cut = optarg; return true;
     case option_find: options->find = optarg; return true;
     case option_fit: options->fit = optarg; return true;
     case option_parameters: options->parameters = optarg; return true;
@@ -290,7 +285,9 @@ static bool take_option(const struct command_line *unused, int option, void *con
     case option_examples: return choose_action(options, action_examples);
     case option_example: options->example = optarg; return choose_action(options, action_example);
     case option_handout: return choose_action(options, action_handout);
-    case option_fmu: options->fmu = optarg; return fmu_can_be_made() && choose_action(options, action_fmu);
+    case option_fmu:
+        options->fmu = optarg;
+        return fmu_can_be_made(&line) && choose_action(options, action_fmu);
     case option_fmu_version: return take_fmu_version(&options->fmu_version);
     default: return take_drawing(options, option);
     }
@@ -428,8 +425,9 @@ static bool options_agree(const struct options *options)
     bool stands_still = options->action != action_run;
     bool draws = options->action == action_equations || options->action == action_linearize;
     bool rests = options->action == action_static;
-    if (options->at_count && !draws && !rests && !options->svg)
-        return usage("--at goes with --svg, --equations, --linearize or --static", "");
+    if (options->cut && !cutting_agrees(options, &line, shapes_drawing(options, false, false))) return false;
+    if (options->at_count && !draws && !rests && !options->svg && !options->cut)
+        return usage("--at goes with --svg, --cut, --equations, --linearize or --static", "");
     if (options->svg && stands_still && !draws && !rests)
         return usage("--svg belongs to a run, --equations, --static or --linearize", "");
     if ((options->find || options->fit) && !find_agrees(options)) return false;

@@ -48,6 +48,7 @@ struct options {
     size_t answer_count;
     const char *fit;        /* a file of measured data, or NULL */
     const char *parameters; /* those to fit, with commas between; NULL for all */
+    const char *cut;        /* a body, or BODY=PLACE: its section forces; or NULL */
     const char *find;       /* a question, or NULL */
     size_t find_runs;       /* of the scan of the range, or 0 */
     const char *example;    /* the name of action_example */

@@ -232,6 +232,10 @@ typedef struct fbd_shape {
 FBD_API size_t fbd_model_shape_count(const fbd_model *model, size_t body);
 FBD_API fbd_shape fbd_model_shape(const fbd_model *model, size_t body, size_t index);
 
+/* Mass, centre and moment of inertia about that centre of the same part; of a body of varying mass at its start.
+ * I_O and L are 0, and all are NAN past the last one. */
+FBD_API fbd_inertia fbd_model_shape_inertia(const fbd_model *model, size_t body, size_t index);
+
 /* The largest extent of the parts of a body from a point in a direction (a unit vector), both in the frame of
  * the body; -INFINITY when it has no parts. */
 FBD_API double fbd_model_extent(const fbd_model *model, size_t body, const double from[2],
@@ -277,6 +281,15 @@ typedef struct fbd_pose {
 } fbd_pose;
 
 FBD_API fbd_pose fbd_state_pose(fbd_state *state, size_t body);
+
+/* The motion of a point of a body, of its frame, in the world: position, velocity and acceleration in the modes of
+ * the state; and the angular velocity and acceleration of the body. NAN past the last body. */
+typedef struct fbd_point_motion {
+    double position[2], velocity[2], acceleration[2];
+    double omega, alpha;
+} fbd_point_motion;
+
+FBD_API fbd_point_motion fbd_state_point_motion(fbd_state *state, size_t body, const double point[2]);
 
 /* ---------------------------------------------------------------- drawings: a state */
 
@@ -428,6 +441,7 @@ typedef struct fbd_listed_force {
     bool free;       /* its direction is not given by the scene, as of a pin */
     int contact;     /* the contact that it is part of, numbered from 0, or -1 */
     double along[2]; /* vector along its line where that is given, outward for a normal force; else 0 */
+    bool placed;     /* the entry has `at` */
 } fbd_listed_force;
 
 /* Fill at most `room` forces of a body at a state, in the order of fbd_diagram; returns their number, 0 past

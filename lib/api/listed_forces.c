@@ -58,6 +58,7 @@ static void describe_load(const fbd_state *state, const struct model_body *body,
     const bool normal = load->kind == load_normal;
     const bool constant = load->value.expr && expr_is_constant(load->value.expr);
     force->law = word_of(load);
+    force->placed = load->point.kind != point_absent;
     force->line = load->at.line;
     force->column = load->at.column;
     force->moment = load->kind >= moment_applied && load->kind <= moment_potential;

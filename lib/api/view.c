@@ -7,6 +7,7 @@
 
 #include "base/api_check.h"
 #include "dynamics/constraint.h"
+#include "dynamics/diagram.h"
 #include "dynamics/mass.h"
 #include "dynamics/tree.h"
 #include "fbd_view.h"
@@ -67,6 +68,24 @@ fbd_pose fbd_state_pose(fbd_state *state, size_t body)
     const struct instant at = state_instant(state);
     tree_move(state->model, &at);
     return pose_of(state->model, &state->model->bodies[body], &at);
+}
+
+fbd_point_motion fbd_state_point_motion(fbd_state *state, size_t body, const double point[2])
+{
+    if (!state || !point || body >= state->model->body_count)
+        return (fbd_point_motion){{NAN, NAN}, {NAN, NAN}, {NAN, NAN}, NAN, NAN};
+    state_ready(state);
+    const struct instant at = state_instant(state);
+    const struct model_body *of = &state->model->bodies[body];
+    const struct vec place = {point[0], point[1]};
+    const struct pose pose = body_pose(of, &at);
+    const struct motion_of_point moved = point_motion(of, &pose, place);
+    const struct vec a = point_acceleration(of, place, &at);
+    return (fbd_point_motion){.position = {moved.p.x, moved.p.y},
+                              .velocity = {moved.v.x, moved.v.y},
+                              .acceleration = {a.x, a.y},
+                              .omega = pose.omega,
+                              .alpha = body_angular_acceleration(of, &at)};
 }
 
 static fbd_mass mass_of(const struct fbd_model *model, int b, const struct instant *at, struct arena *arena)

@@ -104,6 +104,15 @@ fbd_shape fbd_model_shape(const fbd_model *model, size_t body, size_t index)
     return shape;
 }
 
+fbd_inertia fbd_model_shape_inertia(const fbd_model *model, size_t body, size_t index)
+{
+    if (index >= fbd_model_shape_count(model, body))
+        return (fbd_inertia){.mass = NAN, .I_G = NAN, .I_O = NAN, .L = NAN, .G = {NAN, NAN}};
+    const struct model_body *of = &model->bodies[body];
+    const struct inertia one = inertia_of_parts(&of->source->parts[index], 1, of->pin);
+    return (fbd_inertia){.mass = one.mass, .I_G = one.I_G, .G = PAIR(one.G)};
+}
+
 static double extent_of(const fbd_shape *shape, struct vec from, struct vec along)
 {
     const double middle = vec_dot(vec_sub(vec_of(shape->center), from), along);

@@ -122,7 +122,13 @@ static const char *given(struct emitter *emitter, const struct part *part, const
                          int b)
 {
     struct vec pivot = emitter->model->bodies[b].source->motion.point;
-    const char *I = number_of(emitter, part, owner, "inertia", part->inertia, DIM_INERTIA);
+    const char *I;
+    if (part->gyration > 0) {
+        const char *k = number_of(emitter, part, owner, "radius_of_gyration", part->gyration, DIM_LENGTH);
+        I = emit_printf(emitter, "%s*square(%s)", m, k);
+    } else {
+        I = number_of(emitter, part, owner, "inertia", part->inertia, DIM_INERTIA);
+    }
     if (part->about.kind != point_fixed && !part->about_pivot) return I;
     struct vec from = vec_sub(part->about_pivot ? pivot : part->about.where, part->center);
     const char *d = emit_vector(emitter, emit_join(emitter, owner, "about"), from,

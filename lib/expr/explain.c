@@ -212,8 +212,22 @@ void explain_name_after_number(struct parser *p, struct token number)
 
 /* ---- unknown names */
 
+/* Of the acceleration of a point: forces determine it, so none can depend on it. */
+static const char *acceleration_hint(struct parser *p, const char *name)
+{
+    const char *dot = strrchr(name, '.');
+    if (!dot || (strcmp(dot, ".ax") != 0 && strcmp(dot, ".ay") != 0)) return NULL;
+    return diag_hint(
+        p->errors,
+        "an acceleration follows from the forces and is known behind them only: `output: {points: "
+        "[%.*s]}` writes it",
+        (int)(dot - name), name);
+}
+
 static const char *name_hint(struct parser *p, const char *name, size_t length)
 {
+    const char *hint = acceleration_hint(p, name);
+    if (hint) return hint;
     static const char *const constants[][2] = {
         {"e", "Euler's number is `exp(1)`"},
         {"Pi", "write `pi`"},

@@ -21,9 +21,10 @@ static double prism_inertia(const struct part *part)
 
 static double given_inertia(const struct part *part, struct vec pivot)
 {
-    if (part->about.kind != point_fixed && !part->about_pivot) return part->inertia;
+    const double I = part->gyration > 0 ? part->mass * square(part->gyration) : part->inertia;
+    if (part->about.kind != point_fixed && !part->about_pivot) return I;
     struct vec from = vec_sub(part->about_pivot ? pivot : part->about.where, part->center);
-    return part->inertia - part->mass * vec_dot(from, from);
+    return I - part->mass * vec_dot(from, from);
 }
 
 /* The moment of inertia of a homogeneous shape about the axis through its own centre that faces the plane.

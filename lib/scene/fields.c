@@ -147,6 +147,7 @@ static const char *const usual_keys[][3] = {
     {"R", "radius"},
     {"diameter", "radius", "the key is `radius`: half of the diameter"},
     {"I", "inertia"},
+    {"radius_of_gyration", "inertia", "it is one of `inertia: {radius_of_gyration: 12 cm}`"},
     {"position", "initial", "where it starts is `initial: {x: ..., y: ...}`"},
     {"velocity", "initial", "how fast it starts is `initial: {v: ...}`, or `vx` and `vy`"},
     {"speed", "initial", "how fast it starts is `initial: {v: ...}`, or `vx` and `vy`"},

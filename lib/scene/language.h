@@ -193,7 +193,7 @@ struct body_keys {
 };
 
 struct inertia_keys {
-    double value;
+    double value, gyration;
     const struct node *about;
 };
 

@@ -60,8 +60,9 @@ static const struct field part_fields[] = {
 const struct group part_group = {"a part", NULL, FIELDS(part_fields), NULL, 0, "one piece of a body"};
 
 static const struct field inertia_fields[] = {
-    FIELD_NUMBER(offsetof(struct inertia_keys, value), "value", an_inertia, required | stored,
-                 "the moment of inertia"),
+    FIELD_NUMBER(offsetof(struct inertia_keys, value), "value", an_inertia, stored, "the moment of inertia"),
+    FIELD_NUMBER(offsetof(struct inertia_keys, gyration), "radius_of_gyration", a_length, positive | stored,
+                 "k, in place of its value: I = m k^2"),
     FIELD_NODE(offsetof(struct inertia_keys, about), "about", field_any, 0, NULL,
                "G, O (the pivot), a point of the body or [x, y]; default G"),
 };

@@ -284,6 +284,8 @@ const struct kinds force_kinds = {"force", FIELDS(forces), usual_forces, kinds_i
 
 static const struct field moment_applied_fields[] = {
     FIELD_VALUE(LOAD(value), "value", a_moment, required | stored, "counter-clockwise"),
+    FIELD_NODE(offsetof(struct load_keys, at), "at", field_any, 0, NULL,
+               "where it acts on the body: a name or [x, y]; for section forces (--cut) alone"),
     CONSERVATIVE_ROW,
 };
 static const struct group moment_applied_group =

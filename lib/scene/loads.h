@@ -62,7 +62,8 @@ struct part {
     double side[3];      /* prism: a, b, c */
     struct vec center;   /* its centre of mass in the body frame */
     double angle;        /* of the shape's x axis in the body frame [rad] */
-    double inertia;      /* shape_given: moment of inertia ... */
+    double gyration;     /* shape_given: radius of gyration; 0 if not given */
+    double inertia;      /* shape_given: moment of inertia, where that is 0 ... */
     struct point about;  /* ... about this point (point_G: about its own centre) */
     bool about_pivot;    /* ... or about the point on the pivot */
     double rim;          /* shape_given that rolls: its radius, for drawings, about `hub`; else 0 */
@@ -122,9 +123,13 @@ enum load_kind {
     load_actuator, /* not listed: a given force between two bodies, under `couplings` */
 };
 
-/* A distributed load along a line: its length, and the distance of the resultant from its start. */
+/* A distributed load along a line, a force per length w(s). */
 struct spread {
-    double length, center;
+    double length, center; /* of the line; distance of the resultant from its start */
+    double force;          /* the integral of w */
+    struct vec from, to;   /* ends of the line, points of the body */
+    const struct expr *w;  /* of s in slot 1; NULL for a trapezoid */
+    double ends[2];        /* and its values at both ends */
 };
 
 struct law;

@@ -86,7 +86,7 @@ static const struct expr *read_density(struct entry *entry, const struct node *n
 static bool take_ends(struct entry *entry, const struct node *pair, double length, double *force, double *arm,
                       double *size)
 {
-    double w[2];
+    double *w = entry->keys.load.spread.ends;
     for (int k = 0; k < 2; k++) {
         const struct expr *end = pair->count == 2 ? read_density(entry, pair->items[k]) : NULL;
         if (pair->count != 2)
@@ -111,7 +111,7 @@ static bool take_integrals(struct entry *entry, const struct node *node, double 
                            double *arm, double *size)
 {
     const double enough = 1e-9;
-    const struct expr *w = read_density(entry, node);
+    const struct expr *w = entry->keys.load.spread.w = read_density(entry, node);
     double errors[3];
     if (!w) return false;
     integrate(w, of_force, length, force, &errors[0]);
@@ -139,10 +139,15 @@ static bool place(struct entry *entry, struct vec from, struct vec to, double fo
                    "the parts of this load cancel and leave a moment: it has no resultant force");
         return false;
     }
-    load->spread = (struct spread){.length = length, .center = size > 0 ? arm / force : length / 2};
+    struct spread *spread = &load->spread;
+    spread->length = length;
+    spread->center = size > 0 ? arm / force : length / 2;
+    spread->force = force;
+    spread->from = from;
+    spread->to = to;
     struct vec e = vec_scale(1 / length, vec_sub(to, from));
     load->point = (struct point){.kind = point_fixed,
-                                 .where = vec_add(from, vec_scale(load->spread.center, e)),
+                                 .where = vec_add(from, vec_scale(spread->center, e)),
                                  .at = entry->chosen.at};
     return true;
 }

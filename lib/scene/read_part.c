@@ -184,7 +184,17 @@ static bool read_inertia(struct reader *reader, int body, const struct node *map
     bool fine = fields_exclude(reader, map, "shape", "inertia", "a shape has its moment of inertia: choose");
     if (!fields_read(reader, &inertia_group, keys->inertia, pair->at, &reader->constants, &given))
         return false;
+    const struct node *inertia = keys->inertia;
+    const bool k = node_find(inertia, "radius_of_gyration") != NULL;
+    if (inertia->kind == node_map && !k && !node_find(inertia, "value")) {
+        diag_add(reader->errors, FBD_ERROR, "missing-key", pair->at,
+                 "write `value: 0.2 kg*m^2`, or `radius_of_gyration: 12 cm`", "`inertia` needs `value`");
+        fine = false;
+    }
+    if (!fields_exclude(reader, inertia, "value", "radius_of_gyration", "each gives the other: I = m k^2"))
+        fine = false;
     part->inertia = given.value;
+    part->gyration = given.gyration;
     part->about = (struct point){.kind = point_G, .at = pair->at};
     /* A hole has negative mass and moment of inertia. */
     if (given.value * keys->mass < 0) {

@@ -63,6 +63,7 @@ static const struct {
     {"hand", "equation+conserved conserved+impact"},
     {"table", "file+points"},
     {"part", "shape+inertia"},
+    {"inertia", "value+radius_of_gyration"},
     {"body",
      "shape+inertia parts+mass parts+shape parts+inertia parts+length parts+radius parts+outer_radius "
      "parts+inner_radius parts+a parts+b parts+c parts+from parts+to parts+center parts+angle parts+axis"},

@@ -15,6 +15,9 @@ void bodies_and_forces(void **context)
     ANSWERS(fbd_model_scene, strcmp(fbd_model_scene(NULL).units, "") == 0);
     ANSWERS(fbd_model_body, !fbd_model_body(NULL, 0).name);
     ANSWERS(fbd_model_body, is_nan(fbd_model_body(model, past).inertia.mass));
+    ANSWERS(fbd_model_shape_inertia, is_nan(fbd_model_shape_inertia(NULL, 0, 0).mass));
+    ANSWERS(fbd_state_point_motion, is_nan(fbd_state_point_motion(NULL, 0, NULL).omega));
+    ANSWERS(fbd_state_point_motion, is_nan(fbd_state_point_motion(state, 0, NULL).alpha));
     ANSWERS(fbd_state_pose, is_nan(fbd_state_pose(NULL, 0).x));
     ANSWERS(fbd_state_pose, is_nan(fbd_state_pose(state, past).G[1]));
     ANSWERS(fbd_state_slip, fbd_state_slip(NULL, 0) == 0);

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Section forces of a straight body: normal force N, shear force V and bending moment M at the section at the
+ * distance x from the start of its axis.
+ *
+ * e is the unit vector along the axis, n is e turned by 90 degrees to the left. With the loads on the part from 0 to x
+ * (forces F, couples C, places p, and per length f, c) its equilibrium, inertia included as loads -m a, gives
+ *
+ *   N(x) = - sum of F . e,   V(x) = sum of F . n,   M(x) = sum of ((x - p_e) F . n + p_n F . e - C).
+ *
+ * So N > 0 is tension; V > 0 turns a part between two sections clockwise; M > 0 bends it to be hollow on the side of n
+ * (sagging, for an axis to the right). dN/dx = -f_e, dV/dx = f_n, dM/dx = V + p_n f_e - c.
+ *
+ * A part of mass mu and moment of inertia iota per length has f = mu (g - a), c = -iota alpha, where a is linear in x. So
+ * between two places where a load begins, ends or acts, N and M are cubic at most and V quadratic, for loads of constant
+ * density per length; every density is a polynomial there, by interpolation where the file gives another function. The
+ * places of extremes are roots of the derivatives, which are found exactly (polynomial.h).
+ *
+ * Beyond the other end N, V and M are zero: the test of each result.
+ */
+#ifndef FBD_STUDY_SECTION_H
+#define FBD_STUDY_SECTION_H
+
+#include "base/arena.h"
+#include "base/vec.h"
+#include "fbd_section.h"
+#include "fbd_view.h"
+#include "study/polynomial.h"
+
+enum section_force { section_N, section_V, section_M, section_forces };
+
+/* The symbols and their meaning in words. */
+extern const char *const section_symbols[section_forces], *const section_words[section_forces];
+
+/* A force or couple at one place of the axis; `jump` are the steps of N, V and M there. */
+struct section_load {
+    const char *name;
+    double x;
+    double jump[section_forces];
+};
+
+/* A stretch of the axis without a load at one place inside. The density of a load is a polynomial of t = -1 ... 1. */
+struct section_piece {
+    double from, to;
+    struct polynomial along, across, couple; /* f_e, f_n, dM/dx - V = p_n f_e - c */
+    struct polynomial of[section_forces];    /* N, V, M */
+};
+
+struct fbd_section {
+    struct arena arena;
+    const fbd_model *model; /* its texts */
+    const char *body, *start, *end;
+    bool at_rest;
+    double t, length;
+    struct vec origin, e; /* of the axis, in the frame of the body */
+    size_t load_count, piece_count, lump_count;
+    struct section_load *loads;
+    struct section_piece *pieces;
+    const char **lumps;          /* parts that count as concentrated at their centres */
+    double size[section_forces]; /* sums of the magnitudes of all loads, for rounding */
+    fbd_section_extreme extremes[section_forces][2];
+};
+
+/* A value at round-off level is 0. */
+double section_rounded(const fbd_section *section, enum section_force force, double value);
+
+/* The unit of a section force. */
+const char *section_unit(const fbd_section *section, enum section_force force);
+
+#endif

@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The axis of a straight body: that of its longest rod or plate. All others must lie on it.
+ */
+#include <math.h>
+
+#include "study/section_loads.h"
+
+static bool refuse(struct section_work *work, const char *hint, const char *format, const char *name)
+{
+    diag_add(work->errors, FBD_ERROR, "no-section", (struct pos){work->seen.line, work->seen.column}, hint,
+             format, name);
+    return false;
+}
+
+/* A rod or a plate by its middle line, in the frame of the body. */
+struct middle {
+    struct vec from, to;
+};
+
+static bool find_middle(const fbd_shape *shape, struct middle *middle)
+{
+    const struct vec a = vec_of(shape->corners[0]), b = vec_of(shape->corners[1]);
+    if (shape->kind == FBD_SHAPE_BAR) *middle = (struct middle){a, b};
+    if (shape->kind != FBD_SHAPE_POLYGON) return shape->kind == FBD_SHAPE_BAR;
+    const struct vec c = vec_of(shape->corners[2]), d = vec_of(shape->corners[3]);
+    const bool first = vec_norm(vec_sub(b, a)) >= vec_norm(vec_sub(c, b));
+    *middle = first ? (struct middle){vec_scale(0.5, vec_add(a, d)), vec_scale(0.5, vec_add(b, c))}
+                    : (struct middle){vec_scale(0.5, vec_add(a, b)), vec_scale(0.5, vec_add(d, c))};
+    const struct vec along = vec_sub(middle->to, middle->from);
+    if (along.x < -1e-9 * vec_norm(along) || (fabs(along.x) <= 1e-9 * vec_norm(along) && along.y < 0))
+        *middle = (struct middle){middle->to, middle->from}; /* with the x axis of the body */
+    return true;
+}
+
+static bool choose_axis(struct section_work *work, const fbd_model *model)
+{
+    fbd_section *section = work->section;
+    double longest = 0;
+    struct middle axis = {{0, 0}, {0, 0}}, middle;
+    for (size_t i = 0; i < fbd_model_shape_count(model, work->body); i++) {
+        const fbd_shape shape = fbd_model_shape(model, work->body, i);
+        if (shape.hole)
+            return refuse(work, "leave the hole out, or give its section a body of its own",
+                          "`%s` has a hole, whose sections are not those of a rod", section->body);
+        if (shape.kind == FBD_SHAPE_UNKNOWN)
+            return refuse(work, "give it `shape: rod` or `shape: prism` in place of `inertia`",
+                          "`%s` has a moment of inertia, but no distribution of its mass", section->body);
+        if (!find_middle(&shape, &middle)) continue;
+        const double length = vec_norm(vec_sub(middle.to, middle.from));
+        if (!(length > longest * (1 + 1e-9))) continue;
+        longest = length;
+        axis = middle;
+    }
+    if (!(longest > 0))
+        return refuse(work, "`--cut` wants a body with `shape: rod` or `shape: prism`, or such a part",
+                      "`%s` has no part that is long and straight", section->body);
+    section->origin = axis.from;
+    section->e = vec_scale(1 / longest, vec_sub(axis.to, axis.from));
+    section->length = longest;
+    return true;
+}
+
+/* From the frame of the body into the axes of the axis. */
+static struct vec in_axis(const fbd_section *section, struct vec point)
+{
+    const struct vec r = vec_sub(point, section->origin);
+    return (struct vec){vec_dot(r, section->e), vec_cross(section->e, r)};
+}
+
+/* Add the part to the bars; false when it does not lie on the axis. */
+static bool add_bar(struct section_work *work, const fbd_shape *shape, const fbd_inertia *inertia,
+                    double factor)
+{
+    const fbd_section *section = work->section;
+    struct middle middle;
+    find_middle(shape, &middle);
+    const struct vec a = in_axis(section, middle.from), b = in_axis(section, middle.to);
+    const double length = vec_norm(vec_sub(b, a)), near = 1e-9 * section->length;
+    if (fabs(a.y) > near || fabs(b.y) > near) return false;
+    const double slender = inertia->mass * length * length / 12;
+    const double excess = shape->kind == FBD_SHAPE_BAR ? 0 : inertia->I_G - slender;
+    work->bars[work->bar_count++] =
+        (struct section_bar){fmin(a.x, b.x), fmax(a.x, b.x), factor * inertia->mass / length,
+                             factor * excess / length};
+    return true;
+}
+
+/* The axis from the first to the last end of all bars. */
+static void extend_axis(struct section_work *work)
+{
+    fbd_section *section = work->section;
+    double low = 0, high = section->length;
+    for (size_t i = 0; i < work->bar_count; i++) {
+        low = fmin(low, work->bars[i].from);
+        high = fmax(high, work->bars[i].to);
+    }
+    section->origin = vec_add(section->origin, vec_scale(low, section->e));
+    section->length = high - low;
+    for (size_t i = 0; i < work->bar_count; i++) {
+        work->bars[i].from -= low;
+        work->bars[i].to -= low;
+    }
+}
+
+bool section_find_axis(struct section_work *work)
+{
+    const fbd_model *model = work->section->model;
+    const size_t count = fbd_model_shape_count(model, work->body);
+    if (!choose_axis(work, model)) return false;
+    work->bars = ARENA_ARRAY(&work->section->arena, count + 1, struct section_bar);
+    fbd_view *view = work->bars ? fbd_view_new(work->state, work->errors) : NULL;
+    if (!view) return false;
+    const double factor = fbd_view_mass(view, work->body).mass / fbd_model_inertia(model, work->body).mass;
+    fbd_view_free(view);
+    for (size_t i = 0; i < count; i++) {
+        const fbd_shape shape = fbd_model_shape(model, work->body, i);
+        const fbd_inertia inertia = fbd_model_shape_inertia(model, work->body, i);
+        const bool bar = shape.kind == FBD_SHAPE_BAR || shape.kind == FBD_SHAPE_POLYGON;
+        if (bar && !add_bar(work, &shape, &inertia, factor))
+            return refuse(work,
+                          "make each straight part a body, and weld them: a weld shows N, V and M there",
+                          "the parts of `%s` do not lie on one straight line", work->section->body);
+    }
+    extend_axis(work);
+    return true;
+}
