@@ -240,9 +240,21 @@ uninstall:
 	cp $(BUILD)/installed.txt $(BUILD)/meson-logs/install-log.txt
 	ninja -C $(BUILD) uninstall
 
-# The source as a tarball, of what is committed, with the finished module of live pages: $(BUILD)/meson-dist.
+# The source as a tarball, of what is committed, with the finished module of live pages: $(BUILD)/dist. The same commit
+# gives the same bytes.
 dist: live
-	meson dist -C $(BUILD) --no-tests
+	packaging/dist $(BUILD)/dist $(LIVE)/fbd-live.wasm
+
+# The recipes of packaging for the address at which that tarball is published: $(BUILD)/recipes.
+SOURCE_URL =
+recipes: dist
+	@[ -n "$(SOURCE_URL)" ] || { echo 'usage: make recipes SOURCE_URL=ADDRESS' >&2; exit 2; }
+	packaging/recipes $(BUILD)/recipes $(BUILD)/dist/fbd-*.tar.xz $(SOURCE_URL)
+
+# The recipes read by the parsers of Nix and Ruby too.
+recipes-check: $(BUILD)/.tests
+	.ci/install-packages recipes
+	.ci/test $(BUILD) --no-rebuild recipes
 
 # That the tarball builds by itself, installs and goes away again, and that its run enters no function of an effect that
 # is not listed; some two minutes.
@@ -301,5 +313,5 @@ $(BUILD)-count/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run satellites mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects instructions error-bars event-bars events late-times implicit tighter methods impacts failures gallery python live live-check lsp-check site check-format format lint install uninstall dist dist-check pages deb deb-check clean
+.PHONY: all run satellites mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects instructions error-bars event-bars events late-times implicit tighter methods impacts failures gallery python live live-check lsp-check site check-format format lint install uninstall dist dist-check recipes recipes-check pages deb deb-check clean
 .SECONDARY:
