@@ -48,6 +48,7 @@ enum {
     option_components,
     option_supports,
     option_symbols,
+    option_system,
     option_scale,
     option_worksheet,
     option_solution,
@@ -108,6 +109,7 @@ static const struct option long_options[] = {
     {"components", no_argument, NULL, option_components},
     {"supports", no_argument, NULL, option_supports},
     {"symbols", no_argument, NULL, option_symbols},
+    {"system", no_argument, NULL, option_system},
     {"scale", required_argument, NULL, option_scale},
     {"worksheet", no_argument, NULL, option_worksheet},
     {"solution", no_argument, NULL, option_solution},
@@ -213,6 +215,7 @@ static bool take_drawing(struct options *options, int option)
     case option_components: options->drawing.components = true; return true;
     case option_supports: options->drawing.supports = true; return true;
     case option_symbols: options->drawing.symbols = true; return true;
+    case option_system: options->drawing.system = true; return true;
     case option_scale: options->scale = optarg; return true;
     case option_worksheet: options->drawing.worksheet = true; return true;
     case option_solution: options->drawing.solution = true; return true;
@@ -321,7 +324,7 @@ static bool shapes_drawing(const struct options *options, bool components, bool 
 {
     const fbd_drawing *drawing = &options->drawing;
     return drawing->body || (drawing->components && !components) || drawing->supports ||
-           (drawing->symbols && !symbols) || options->scale || drawing->worksheet;
+           (drawing->symbols && !symbols) || options->scale || drawing->worksheet || drawing->system;
 }
 
 /* True for options that contradict a sheet or a grade. A sheet permits the drawing option --solution. */
@@ -364,12 +367,19 @@ static bool drawing_agrees(const struct options *options)
     if ((shapes_drawing(options, components, equations) || drawing->solution) &&
         (!options->svg || eigenvalues))
         return usage(
-            "--body, --components, --supports, --symbols, --scale, --worksheet and --solution go with the "
+            "--body, --components, --supports, --symbols, --system, --scale, --worksheet and --solution go "
+            "with the "
             "diagrams of --svg",
             options->drawing.components ? ", --components also with --html, --ledger and --equations" : "");
     if (drawing->worksheet && (drawing->solution || drawing->symbols || drawing->components))
         return usage(
             "--worksheet has no arrows: --solution, --symbols and --components are for another sheet", "");
+    if (drawing->system && (drawing->body || drawing->worksheet || drawing->solution || drawing->symbols ||
+                            drawing->components || options->scale))
+        return usage(
+            "--system draws the bodies joined: --body, --components, --symbols, --scale, --worksheet "
+            "and --solution are for bodies cut free",
+            "");
     return !options->svg || picture_can_be_written(&line, options->svg);
 }
 

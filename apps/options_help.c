@@ -39,6 +39,7 @@ const char options_help[] =
     "  --supports           with the ground and the bearings that the bodies are cut free from\n"
     "  --symbols            arrows labelled m g, N, T_1 instead of names and values; without --svg the\n"
     "                       equations in symbols, instead of a run\n"
+    "  --system             the bodies joined instead: supports, springs, ropes and applied forces\n"
     "  --scale FORCE        10 mm represent this force, such as 5 or '2 kN'\n"
     "  --worksheet          no arrows, and lines to write on\n"
     "  --solution           the worksheet with its arrows, symbols and values\n"

@@ -169,6 +169,7 @@ typedef struct fbd_drawing {
     /* the force, in the scene's unit, that corresponds to 10 mm; 0: a round one that suits all bodies */
     double scale;
     bool untitled; /* without the title of the scene and the time */
+    bool system;   /* the bodies joined, with supports, springs, ropes and applied forces; no free bodies */
 } fbd_drawing;
 
 /* The free-body diagrams of a state as an SVG 1.1 document in millimetres, to be freed with fbd_free. `drawing`

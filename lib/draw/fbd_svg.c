@@ -11,6 +11,7 @@
 #include "base/api_check.h"
 #include "base/format.h"
 #include "draw/panel.h"
+#include "draw/system_svg.h"
 #include "fbd_export.h"
 #include "fbd_view.h"
 
@@ -467,7 +468,7 @@ char *fbd_diagram_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *
     if (!state)
         api_refuse(errors, "there is no state");
     else if (api_take_options(&own, sizeof own, drawing, errors))
-        svg = make_svg(state, &own, errors);
+        svg = own.system ? system_svg(state, &own, errors) : make_svg(state, &own, errors);
     diag_end(&call);
     return svg;
 }

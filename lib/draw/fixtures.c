@@ -48,6 +48,10 @@ static void wedge_corners(struct panel *panel, struct vec corners[static 4])
     struct vec G = panel_point(panel, panel_place(panel, panel->G));
     if (e.x < 0) e = vec_scale(-1, e);
     panel->seat = vec_add(G, panel_direction(vec_scale(over, n)));
+    if (panel->joined) { /* under the sliding body, a block without a size */
+        const struct vec on = vec_of(fbd_view_pose(panel->view, (size_t)panel->plate.rider).G);
+        panel->seat = vec_sub(panel_point(panel, on), panel_direction(vec_scale(block_half_height, n)));
+    }
     struct vec way = panel_direction(vec_scale(half, e)), left = vec_sub(panel->seat, way),
                right = vec_add(panel->seat, way);
     double base = fmax(fmax(left.y, right.y), G.y + block_half_height);
@@ -79,6 +83,15 @@ void panel_set_scale(struct panel *panel, double size, double largest)
     panel->enlarged = size > 1e-9 * largest && size * scale < least;
     panel->sized = size > 1e-9 * largest;
     panel->millimetres = panel->enlarged ? 10 / round_up(10 * size / (body_size / 3)) : scale;
+    if (panel->body.motion == FBD_MOTION_SLIDE) set_base(panel);
+}
+
+void panel_join(struct panel *panel, struct vec middle, double millimetres)
+{
+    panel->joined = true;
+    panel->sized = true;
+    panel->middle = middle;
+    panel->millimetres = millimetres;
     if (panel->body.motion == FBD_MOTION_SLIDE) set_base(panel);
 }
 
@@ -240,18 +253,18 @@ void panel_body(struct panel *panel)
         for (size_t i = 0; i < shapes; i++) {
             fbd_shape part = fbd_model_shape(panel->model, panel->index, i);
             if (part.hole != (holes == 1)) continue;
-            bool plain_dot = part.kind == FBD_SHAPE_DOT && !panel->sized;
+            const bool block = panel->joined && panel->body.motion == FBD_MOTION_SLIDE;
+            bool plain_dot = part.kind == FBD_SHAPE_DOT && (!panel->sized || block);
             if (!plain_dot) draw_part(panel, &part);
             take_part(panel, &part);
         }
-    draw_center(panel);
+    if (!panel->joined) draw_center(panel);
     text_add(&panel->under, "</g>\n");
 }
 
 /* ---- the ground under it */
 
-/* A line with hatching on the side `into`. */
-static void hatched_line(struct panel *panel, struct vec from, struct vec to, struct vec into)
+void panel_hatched_line(struct panel *panel, struct vec from, struct vec to, struct vec into)
 {
     struct vec d = vec_sub(to, from);
     double length = vec_norm(d);
@@ -333,14 +346,15 @@ static void draw_slide(struct panel *panel)
                into = panel_direction(vec_scale(-1, vec_of(panel->pose.normal))),
                base = panel_point(panel, panel->base);
     bool surface = panel->body.surface, guide = panel->body.two_sided, supports = panel->drawing->supports;
+    if (panel->joined && !on_ground(panel)) return; /* the body under it is in the figure */
     const double reach = supports ? surface_half : free_half;
     struct vec half = vec_scale(reach, e);
     if (surface && !supports) panel_line(panel, "reference", vec_sub(base, half), base, 2);
-    if (surface && supports) hatched_line(panel, vec_sub(base, half), vec_add(base, half), into);
+    if (surface && supports) panel_hatched_line(panel, vec_sub(base, half), vec_add(base, half), into);
     if (guide && supports) {
         struct vec G = panel_point(panel, panel_place(panel, panel->G));
         struct vec over = vec_sub(vec_scale(2, G), base);
-        hatched_line(panel, vec_add(over, half), vec_sub(over, half), vec_scale(-1, into));
+        panel_hatched_line(panel, vec_add(over, half), vec_sub(over, half), vec_scale(-1, into));
     }
     struct vec far = vec_add(base, vec_scale(reach + 9, e));
     if (!surface) {
@@ -392,7 +406,7 @@ static void draw_pivot(struct panel *panel)
         struct vec foot = vec_add(axis, vec_scale(6, d)), side = {3.6, 0}, wide = {7, 0};
         struct vec corners[] = {axis, vec_add(foot, side), vec_sub(foot, side)};
         svg_polygon(&panel->under, "support", corners, 3);
-        hatched_line(panel, vec_sub(foot, wide), vec_add(foot, wide), d);
+        panel_hatched_line(panel, vec_sub(foot, wide), vec_add(foot, wide), d);
     }
     /* theta is zero where the body's frame is parallel to that of its parent */
     double parent = panel->pose.angle - coordinate_of(panel, panel->body.coordinate);
@@ -447,7 +461,7 @@ void panel_fixtures(struct panel *panel)
     if (panel->body.motion == FBD_MOTION_SLIDE) draw_slide(panel);
     if (panel->body.motion == FBD_MOTION_PIVOT) draw_pivot(panel);
     if (panel->body.motion == FBD_MOTION_TRACK) draw_track(panel);
-    if (panel->body.motion == FBD_MOTION_PLANAR) {
+    if (panel->body.motion == FBD_MOTION_PLANAR && !panel->joined) {
         struct vec G = panel_point(panel, panel_place(panel, panel->G));
         double theta = coordinate_of(panel, (size_t)panel->body.angle);
         double reach =

@@ -59,6 +59,7 @@ struct panel {
     double millimetres; /* on paper per unit of length of the scene */
     bool sized;         /* the body has a size, so that a scale of lengths exists */
     bool shaped;        /* by its shape in the file */
+    bool joined;        /* part of the figure of the system, in which all bodies have one origin and scale */
     bool enlarged;      /* drawn to a larger scale than the other bodies of the sheet */
     struct vec base;    /* slide: point of contact with its surface, in the world */
     struct vec seat;    /* wedge: middle of the surface of the body on it, on paper */
@@ -100,6 +101,12 @@ double panel_measure(struct panel *panel);
 /* Set the scale of lengths: that in which the largest body of the sheet fits its panel; a much smaller body of this size
  * is drawn larger. */
 void panel_set_scale(struct panel *panel, double size, double largest);
+
+/* Set the origin and the scale of the figure of the system, in which the bodies stay joined. */
+void panel_join(struct panel *panel, struct vec middle, double millimetres);
+
+/* A line with hatching on the side `into`, a unit vector on paper. */
+void panel_hatched_line(struct panel *panel, struct vec from, struct vec to, struct vec into);
 
 /* Draw the body and its centre of mass. */
 void panel_body(struct panel *panel);

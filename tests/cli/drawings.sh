@@ -51,6 +51,18 @@ foreign_rules() { # rules of the drawing's style that are not for drawings of ou
 }
 check 'inlined in a page the style says nothing about the rest of it' sh -c '[ -z "$1" ]' - "$(foreign_rules out)"
 
+# ---- the system
+check '--system' exits 0 draw "$crank" --system
+check 'has the bodies joined' sh -c '[ "$(grep -c "id=\"system\"" out)" -eq 1 ] && [ "$(grep -c "class=\"outline\"" out)" -eq 3 ]'
+check 'with their supports' says 'class="hatch"' out
+cp out system.svg
+check 'it is deterministic' exits 0 draw "$crank" --system
+check '(the same bytes)' cmp -s out system.svg
+check 'its applied forces have letters' exits 0 draw "$incline" --system
+check '(push)' says '>push</text>' out
+check 'without gravity and reactions' lacks 'class="(gravity|reaction)"|>mg<|>N<' out
+check '--system is no body alone' exits 2 draw "$crank" --system --body piston
+
 # ---- gears without a shape: the force stands at the mesh, one radius from the axis
 check 'gears' exits 0 draw "$models/couplings/gear_pair.yaml"
 check 'are drawn as wheels' sh -c '[ "$(grep -c "circle class=\"body\"" out)" -eq 2 ]'

@@ -1,0 +1,307 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The figure of the system: every body is a panel with one origin, one scale and one labelling; between them
+ * springs, dampers, rods, ropes and belts; on them the applied forces by their letters. Gravity and reactions
+ * are not drawn.
+ */
+#include "draw/system_svg.h"
+
+#include <string.h>
+
+#include "base/diag.h"
+#include "draw/panel.h"
+#include "fbd_view.h"
+
+static const double margin = 5, heading = 14, figure_size = 110, wall_distance = 26, force_length = 15;
+
+struct figure {
+    struct arena arena;
+    const fbd_model *model;
+    fbd_view *view;
+    struct panel *panels;
+    size_t count;
+    struct panel *pen; /* of what is drawn between the bodies */
+};
+
+/* A point of a body, or of the ground, in the world. */
+static struct vec place(const struct figure *figure, int body, struct vec point)
+{
+    return body < 0 ? point : panel_place(&figure->panels[body], point);
+}
+
+static struct vec on_paper(const struct figure *figure, int body, const double point[2])
+{
+    return panel_point(figure->pen, place(figure, body, vec_of(point)));
+}
+
+/* ---- size */
+
+static void take_circle(struct box *box, struct vec center, double radius)
+{
+    box_take(box, vec_sub(center, (struct vec){radius, radius}));
+    box_take(box, vec_add(center, (struct vec){radius, radius}));
+}
+
+/* The corners of the rectangle around the parts of a body, its centre of mass and its pin. */
+static void take_body(const struct figure *figure, size_t b, struct box *box)
+{
+    const struct panel *panel = &figure->panels[b];
+    struct vec low, high;
+    box_take(box, panel_place(panel, panel->G));
+    box_take(box, panel_place(panel, vec_of(panel->body.pin)));
+    if (!shapes_size(figure->model, b, &low, &high)) return;
+    const struct vec corners[] = {low, {high.x, low.y}, high, {low.x, high.y}};
+    for (int i = 0; i < 4; i++) box_take(box, panel_place(panel, corners[i]));
+}
+
+static struct box extent_of(const struct figure *figure)
+{
+    struct box box = box_nothing;
+    for (size_t b = 0; b < figure->count; b++) take_body(figure, b, &box);
+    for (size_t i = 0; i < fbd_view_spring_count(figure->view); i++) {
+        const fbd_spring spring = fbd_view_spring(figure->view, i);
+        box_take(&box, place(figure, spring.body, vec_of(spring.point)));
+        if (!isnan(spring.anchor[0])) box_take(&box, place(figure, spring.partner, vec_of(spring.anchor)));
+    }
+    for (size_t i = 0; i < fbd_view_coupling_count(figure->view); i++) {
+        const fbd_coupling coupling = fbd_view_coupling(figure->view, i);
+        for (size_t k = 0; k < coupling.end_count; k++) {
+            const fbd_coupling_end end = fbd_view_coupling_end(figure->view, i, k);
+            if (coupling.lined && end.body < 0) continue; /* a line of the ground has no ends */
+            take_circle(&box, place(figure, end.body, vec_of(end.point)), fabs(end.radius));
+        }
+    }
+    return box;
+}
+
+/* ---- springs and dampers */
+
+static void zigzag(struct panel *pen, struct vec from, struct vec to)
+{
+    enum { turns = 12 };
+    const struct vec way = vec_sub(to, from);
+    const double length = vec_norm(way), lead = 0.15;
+    if (!(length > 0)) return;
+    const struct vec side = vec_scale(1.8 / length, vec_perp(way));
+    struct vec last = from;
+    for (int i = 0; i <= turns; i++) {
+        const double share = lead + (1 - 2 * lead) * i / turns;
+        const double sign = i == 0 || i == turns ? 0 : i % 2 ? 1 : -1;
+        const struct vec next = vec_add(vec_add(from, vec_scale(share, way)), vec_scale(sign, side));
+        panel_line(pen, "thread", last, next, 4);
+        last = next;
+    }
+    panel_line(pen, "thread", last, to, 4);
+}
+
+/* A cylinder open to one end, with a piston in it. */
+static void dashpot(struct panel *pen, struct vec from, struct vec to)
+{
+    const struct vec way = vec_sub(to, from);
+    const double length = vec_norm(way), half = 1.8;
+    if (!(length > 0)) return;
+    const struct vec u = vec_scale(1 / length, way), n = vec_scale(half, vec_perp(u)),
+                     middle = vec_add(from, vec_scale(0.5, way)), base = vec_sub(middle, vec_scale(3, u)),
+                     open = vec_add(middle, vec_scale(3, u));
+    panel_line(pen, "thread", from, base, 4);
+    panel_line(pen, "thread", vec_sub(base, n), vec_add(base, n), 4);
+    panel_line(pen, "thread", vec_sub(base, n), vec_sub(open, n), 4);
+    panel_line(pen, "thread", vec_add(base, n), vec_add(open, n), 4);
+    panel_line(pen, "thread", vec_sub(middle, vec_scale(0.8, n)), vec_add(middle, vec_scale(0.8, n)), 4);
+    panel_line(pen, "thread", middle, to, 4);
+}
+
+static void wall(struct panel *pen, struct vec at, struct vec into)
+{
+    const struct vec side = vec_scale(5, vec_perp(into));
+    panel_hatched_line(pen, vec_sub(at, side), vec_add(at, side), into);
+}
+
+static void draw_spring(struct figure *figure, size_t index)
+{
+    const fbd_spring spring = fbd_view_spring(figure->view, index);
+    struct panel *pen = figure->pen;
+    struct vec from = on_paper(figure, spring.body, spring.point), to;
+    const bool grounded = spring.partner < 0, placed = !isnan(spring.anchor[0]);
+    if (placed) {
+        to = on_paper(figure, spring.partner, spring.anchor);
+    } else { /* a wall behind the body, beside that of an earlier one */
+        const struct vec e = panel_direction(vec_of(figure->panels[spring.body].pose.along));
+        from = vec_add(from, vec_scale(index % 2 ? 3 : -3, vec_perp(e)));
+        to = vec_sub(from, vec_scale(wall_distance, e));
+    }
+    const struct vec way = vec_sub(to, from);
+    if (!(vec_norm(way) > 0)) return;
+    (spring.damper ? dashpot : zigzag)(pen, from, to);
+    if (grounded) wall(pen, to, vec_scale(1 / vec_norm(way), way));
+}
+
+/* ---- couplings */
+
+/* The ground under a rolling circle or a contact. */
+static void draw_line(struct figure *figure, const fbd_coupling *coupling, size_t index)
+{
+    const fbd_coupling_end end = fbd_view_coupling_end(figure->view, index, 0),
+                           line = fbd_view_coupling_end(figure->view, index, 1);
+    if (line.body >= 0 || end.body < 0) return;
+    const struct vec e = vec_unit(coupling->angle), n = vec_scale(coupling->side, vec_perp(e));
+    const struct vec center = place(figure, end.body, vec_of(end.point));
+    const double high = vec_dot(n, vec_sub(center, vec_of(line.point)));
+    const struct vec foot = panel_point(figure->pen, vec_sub(center, vec_scale(high, n)));
+    const struct vec half = vec_scale(30, panel_direction(e));
+    panel_hatched_line(figure->pen, vec_sub(foot, half), vec_add(foot, half),
+                       vec_scale(-1, panel_direction(n)));
+}
+
+/* A rod, rope or belt: lines between the places where it acts. */
+static void draw_links(struct figure *figure, const fbd_coupling *coupling, size_t index)
+{
+    struct vec last = {0, 0};
+    for (size_t k = 0; k < coupling->end_count; k++) {
+        const fbd_coupling_end end = fbd_view_coupling_end(figure->view, index, k);
+        struct vec center = on_paper(figure, end.body, end.point), first = center, leaves = center;
+        if (end.place_count > 0) first = leaves = panel_point(figure->pen, vec_of(end.places[0]));
+        if (end.place_count > 1) leaves = panel_point(figure->pen, vec_of(end.places[1]));
+        if (end.radius > 0 && end.body < 0)
+            svg_circle(&figure->pen->under, "body", center, end.radius * figure->pen->millimetres);
+        if (k > 0) panel_line(figure->pen, "thread", last, first, 4);
+        if (end.body < 0 && !(end.radius > 0)) wall(figure->pen, center, (struct vec){0, -1});
+        last = leaves;
+    }
+}
+
+static void draw_coupling(struct figure *figure, size_t index)
+{
+    const fbd_coupling coupling = fbd_view_coupling(figure->view, index);
+    if (coupling.lined)
+        draw_line(figure, &coupling, index);
+    else if (strcmp(coupling.kind, "rod") == 0 || strcmp(coupling.kind, "rope") == 0)
+        draw_links(figure, &coupling, index);
+    else if (strcmp(coupling.kind, "pin") == 0) {
+        const fbd_coupling_end end = fbd_view_coupling_end(figure->view, index, 0);
+        svg_circle(&figure->pen->under, "hole", on_paper(figure, end.body, end.point), 1.1);
+    }
+}
+
+/* ---- applied forces */
+
+static void draw_force(struct figure *figure, const fbd_force *force)
+{
+    struct panel *pen = figure->pen;
+    const struct vec f = {force->arrow.fx, -force->arrow.fy};
+    const double size = vec_norm(f);
+    if (strcmp(force->kind, "applied") != 0 || !(size > 0)) return;
+    const struct vec u = vec_scale(1 / size, f),
+                     tail = panel_point(pen, (struct vec){force->arrow.x, force->arrow.y}),
+                     tip = vec_add(tail, vec_scale(force_length, u)), back = vec_sub(tip, vec_scale(2.4, u)),
+                     side = vec_scale(1, vec_perp(u)),
+                     head[] = {tip, vec_add(back, side), vec_sub(back, side)};
+    text_add(&pen->under, "<g class=\"applied\">\n");
+    panel_line(pen, "shaft", tail, back, 8);
+    svg_polygon(&pen->under, "head", head, 3);
+    text_add(&pen->under, "</g>\n");
+    box_take(&pen->extent, tip);
+    panel_note(pen, panel_indexed(&figure->arena, force->symbol), tip, u);
+}
+
+/* ---- the whole */
+
+/* Draw each body with the labelling and the text of the one before, so that labels avoid all of them. */
+static void draw_bodies(struct figure *figure)
+{
+    struct panel before = *figure->pen;
+    for (size_t b = 0; b < figure->count; b++) {
+        struct panel *panel = &figure->panels[b];
+        panel->under = before.under;
+        panel->labels = before.labels;
+        panel->extent = before.extent;
+        const bool in_front = panel_fixtures_in_front(panel);
+        if (!in_front) panel_fixtures(panel);
+        panel_body(panel);
+        if (in_front) panel_fixtures(panel);
+        before = *panel;
+        panel->under = (struct text){0};
+    }
+    *figure->pen = before;
+}
+
+static bool prepare(struct figure *figure, const fbd_state *state, const fbd_drawing *drawing)
+{
+    figure->count = fbd_model_body_count(figure->model);
+    figure->panels = ARENA_ARRAY(&figure->arena, figure->count, struct panel);
+    figure->pen = ARENA_NEW(&figure->arena, struct panel);
+    if (!figure->panels || !figure->pen) return false;
+    for (size_t b = 0; b < figure->count; b++) {
+        if (!panel_start(&figure->panels[b], state, figure->view, b, drawing, &figure->arena)) return false;
+        panel_measure(&figure->panels[b]);
+    }
+    const struct box box = extent_of(figure);
+    const struct vec size = vec_sub(box.high, box.low), middle = vec_scale(0.5, vec_add(box.low, box.high));
+    const double largest = fmax(size.x, size.y);
+    const double millimetres = largest > 0 ? 10 / round_up(10 * largest / figure_size) : 1;
+    for (size_t b = 0; b < figure->count; b++) panel_join(&figure->panels[b], middle, millimetres);
+    *figure->pen = figure->panels[0];
+    return true;
+}
+
+static void draw(struct figure *figure)
+{
+    for (size_t i = 0; i < fbd_view_spring_count(figure->view); i++) draw_spring(figure, i);
+    for (size_t i = 0; i < fbd_view_coupling_count(figure->view); i++) draw_coupling(figure, i);
+    draw_bodies(figure);
+    for (size_t b = 0; b < figure->count; b++)
+        for (size_t i = 0; i < figure->panels[b].force_count; i++)
+            draw_force(figure, &figure->panels[b].forces[i]);
+    labelling_solve(&figure->pen->labels);
+    for (size_t i = 0; i < figure->pen->labels.label_count; i++) {
+        const struct box box = labelling_box(&figure->pen->labels.labels[i]);
+        box_join(&figure->pen->extent, &box);
+    }
+}
+
+static void write(struct figure *figure, const fbd_drawing *drawing, struct text *text)
+{
+    const char *given = fbd_model_title(figure->model), *title = given[0] ? given : "System";
+    const struct box extent = figure->pen->extent;
+    const double top = drawing->untitled ? margin : heading;
+    struct vec size = vec_add(vec_sub(extent.high, extent.low), (struct vec){2 * margin, top + margin});
+    if (!drawing->untitled) size.x = fmax(size.x, 2 * margin + svg_text_width(title, 4.8));
+    svg_begin(text, size, fmin(1, fmin(190 / size.x, 270 / size.y)), title,
+              "The system: bodies joined, with supports and applied forces");
+    if (!drawing->untitled) svg_text_at(text, "heading", (struct vec){margin, margin + 4}, title);
+    text_add(text, "<g id=\"system\" transform=\"translate(");
+    svg_point(text, (struct vec){margin - extent.low.x, top - extent.low.y});
+    text_add(text, ")\">\n");
+    if (figure->pen->under.data) text_add(text, figure->pen->under.data);
+    panel_write_notes(figure->pen, text);
+    text_add(text, "</g>\n</svg>\n");
+    text->failed |= figure->pen->under.failed || figure->arena.failed;
+    text->odd |= figure->pen->under.odd;
+}
+
+char *system_svg(fbd_state *state, const fbd_drawing *given, fbd_errors *errors)
+{
+    struct figure figure = {.model = fbd_state_model(state)};
+    struct text text = {0};
+    fbd_drawing drawing = *given;
+    drawing.supports = true;
+    diag_in_file(errors, fbd_model_file(figure.model));
+    figure.view = fbd_view_new(state, errors);
+    if (!figure.view) return NULL;
+    const bool ready = prepare(&figure, state, &drawing);
+    if (ready) {
+        draw(&figure);
+        write(&figure, &drawing, &text);
+        text_free(&figure.pen->under);
+    }
+    arena_free(&figure.arena);
+    fbd_view_free(figure.view);
+    if (ready && !text.failed && !text.odd) return text.data;
+    if (ready && !text.failed)
+        diag_add(errors, FBD_ERROR, "not-finite", (struct pos){0, 0}, NULL,
+                 "the system cannot be drawn: a length is too large or too small for any scale");
+    else
+        diag_out_of_memory(errors);
+    text_free(&text);
+    return NULL;
+}
