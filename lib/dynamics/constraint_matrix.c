@@ -18,11 +18,18 @@
 #include "dynamics/friction.h"
 #include "dynamics/tree_unknowns.h"
 
-/* ---- the unknowns: rows of couplings, then frictions of slides */
+/* ---- the unknowns: rows of couplings, then frictions of slides, then forces along massless coordinates */
 
 int tree_unknowns(const struct tree *tree)
 {
-    return tree->row_count + tree->pair_count;
+    return tree->row_count + tree->pair_count + tree->massless_count;
+}
+
+bool tree_lacks_inertia(const struct tree *tree, const struct tree_work *work)
+{
+    for (int k = 0; k < tree->massless_count; k++)
+        if (tree_added(tree, work, &tree->massless[k]) > 0) return true;
+    return false;
 }
 
 /* The row normal to a surface is active while it is closed, the row along it while it sticks. */
@@ -36,6 +43,8 @@ static bool contact_takes_part(const struct coupling *coupling, const struct ins
 /* Is unknown k active in the present modes? */
 bool tree_takes_part(const struct tree *tree, const struct instant *at, int k)
 {
+    if (unknown_is_massless(tree, k))
+        return !at->tree->placing && tree_added(tree, at->tree, massless_of(tree, k)) > 0;
     if (!unknown_is_row(tree, k)) {
         int link = tree->pairs[k - tree->row_count];
         return !at->tree->projecting && at->slip[tree->links[link].pair] != stick;
@@ -132,10 +141,27 @@ static bool row_rubs(const struct fbd_model *model, const struct instant *at, in
            (coupling->resistance >= 0 && tree_rubbing_share(model, at, coupling->resistance) != 0);
 }
 
+/* A force along a coordinate of a joint. */
+static void apply_along(const struct tree *tree, struct tree_work *work, const struct tree_massless *of,
+                        double size)
+{
+    const struct tree_state *s = &work->links[of->link];
+    struct tree_rhs *x = &work->x[of->link];
+    const int count = joint_freedom(tree->links[of->link].kind);
+    if (count == 1 || of->local == 2)
+        x->g += size;
+    else
+        x->gf = vec_add(x->gf, vec_scale(size, of->local == 0 ? s->e : vec_perp(s->e)));
+}
+
 static void apply_unknown(const struct fbd_model *model, const struct instant *at, int k, double size)
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
+    if (unknown_is_massless(tree, k)) {
+        apply_along(tree, work, massless_of(tree, k), size);
+        return;
+    }
     if (!unknown_is_row(tree, k)) {
         work->x[tree->pairs[k - tree->row_count]].g += size;
         return;
@@ -150,6 +176,10 @@ static void apply_unknown(const struct fbd_model *model, const struct instant *a
 /* The trees that unknown k joins: their first links. */
 static int roots_of(const struct tree *tree, int k, const int **roots)
 {
+    if (unknown_is_massless(tree, k)) {
+        *roots = &tree->links[massless_of(tree, k)->link].root;
+        return 1;
+    }
     if (!unknown_is_row(tree, k)) {
         *roots = &tree->links[tree->pairs[k - tree->row_count]].root;
         return 1;
@@ -182,11 +212,21 @@ static void answer_unit(const struct fbd_model *model, const struct instant *at,
     }
 }
 
+/* The acceleration along massless coordinate j, less f / w. */
+static double massless_entry(const struct tree *tree, const struct tree_work *work, int j, int k)
+{
+    const struct tree_massless *of = massless_of(tree, j);
+    const double own = j == k ? 1 / of->added : 0;
+    if (work->mark[tree->links[of->link].root] != k + 1) return -own;
+    return work->unit[tree->links[of->link].coordinate + of->local] - own;
+}
+
 /* Row j of the system for the response to unknown k. */
 static double entry(const struct fbd_model *model, const struct instant *at, int j, int k)
 {
     const struct tree *tree = model->tree;
     if (unknown_is_row(tree, j)) return row_answer(at->tree, tree, &at->tree->rows[j], k + 1);
+    if (unknown_is_massless(tree, j)) return massless_entry(tree, at->tree, j, k);
     int link = tree->pairs[j - tree->row_count];
     if (at->tree->mark[tree->links[link].root] != k + 1) return j == k;
     return tree_slip_share(model, at, link) * tree_normal_in(tree, at->tree, link) + (j == k);
@@ -219,7 +259,7 @@ static void set_places(const struct fbd_model *model, const struct instant *at)
     for (int r = 0; r < count; r++) work->reach[r] = work->rank[work->reach[r]];
     work->count = count;
     work->envelope_size = size;
-    work->placed = model->plan.mode_count == 0 && !tree->ends;
+    work->placed = model->plan.mode_count == 0 && !tree->ends && tree->massless_count == 0;
 }
 
 /* By the accelerations for each unknown. Column p has entries in rows q whose envelope contains it, and in its
@@ -310,7 +350,8 @@ void tree_system_assemble(const struct fbd_model *model, const struct instant *a
     struct tree_work *work = at->tree;
     set_places(model, at);
     if (work->count == 0) return;
-    work->symmetric = model->plan.mode_count == 0 || has_rows_only(model, at);
+    work->symmetric =
+        (model->plan.mode_count == 0 && tree->massless_count == 0) || has_rows_only(model, at);
     if (system_has_paths(tree, work)) {
         assemble_paths(tree, work);
     } else {
@@ -351,6 +392,15 @@ double tree_row_answer(const struct tree_work *work, int j)
         sum += vec_dot(port->force, A->a) + vec_cross(port->arm, port->force) * A->alpha;
     }
     return sum;
+}
+
+void tree_want_massless(const struct tree *tree, const struct tree_work *work, const double *a, double *z)
+{
+    for (int k = tree->row_count + tree->pair_count; k < tree_unknowns(tree); k++) {
+        const struct tree_massless *of = massless_of(tree, k);
+        const bool active = tree_added(tree, work, of) > 0;
+        z[k] = active ? -a[tree->links[of->link].coordinate + of->local] : 0;
+    }
 }
 
 /* The same by the forces on the joints of the rows. */

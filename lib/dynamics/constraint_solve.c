@@ -50,6 +50,13 @@ static const double nothing = 1e-15;
  * it. */
 static const double shift_of_rows = 1e-8, weak_share = 1e-4;
 
+/* Does a motion remain that no inertia resists? Its accelerations are not finite then. */
+static bool has_no_inertia(const struct tree *tree, int unknown, double pivot)
+{
+    const double nothing_left = 1e-11;
+    return !(-pivot * massless_of(tree, unknown)->added > nothing_left);
+}
+
 /* Factor row and column j up to the diagonal, given those before. */
 static void factor_row(const struct tree *tree, struct tree_work *work, int j, double epsilon)
 {
@@ -69,6 +76,10 @@ static void factor_row(const struct tree *tree, struct tree_work *work, int j, d
      * of a surface with friction includes the response to that friction, and may be negative (Painleve). */
     bool movable = !unknown_is_row(tree, unknown) || fabs(work->diagonal[unknown]) > nothing * work->most;
     work->inverse[j] = movable && pivot != 0 ? 1 / pivot : 0;
+    if (unknown_is_massless(tree, unknown) && has_no_inertia(tree, unknown, pivot)) {
+        work->unmoved = massless_of(tree, unknown);
+        work->inverse[j] = work->tentative ? 0 : NAN;
+    }
     if (!unknown_is_row(tree, unknown)) return;
     work->rows[unknown].redundant = !movable || !(fabs(pivot) > 10 * shift);
     work->rows[unknown].weak = !movable || !(fabs(pivot) > weak_share / shift_of_rows * shift);
@@ -153,6 +164,7 @@ static bool factor_as_it_stands(const struct tree *tree, struct tree_work *work)
 
 void tree_system_refactor(const struct tree *tree, struct tree_work *work)
 {
+    work->unmoved = NULL;
     work->direct = factor_as_it_stands(tree, work);
     /* A projection must not change the state by much to satisfy a row without slope. */
     if (!work->direct) factor_shifted(tree, work, work->projecting ? work->damping : shift_of_rows);
@@ -162,6 +174,13 @@ void tree_system_factor(const struct fbd_model *model, const struct instant *at)
 {
     tree_system_assemble(model, at);
     tree_system_refactor(model->tree, at->tree);
+}
+
+/* The residual of a massless coordinate. */
+static double massless_answer(const struct tree *tree, const struct tree_work *work, int j, double f)
+{
+    const struct tree_massless *of = massless_of(tree, j);
+    return work->unit[tree->links[of->link].coordinate + of->local] - f / of->added;
 }
 
 /* For a light body the rounding of a force is an acceleration that violates its rows. Solve for the residual
@@ -178,8 +197,10 @@ static void refine(const struct fbd_model *model, const struct instant *at, doub
         memcpy(work->sum, work->x, links * sizeof *work->sum);
         memcpy(work->sum_unit, work->unit, n * sizeof *work->sum_unit);
         for (int j = 0; j < tree_unknowns(tree); j++)
-            left[j] = unknown_is_row(tree, j) && work->place[j] >= 0
-                          ? work->wanted[j] - tree_row_answer(work, j)
+            left[j] = work->place[j] < 0          ? 0
+                      : unknown_is_row(tree, j) ? work->wanted[j] - tree_row_answer(work, j)
+                      : unknown_is_massless(tree, j)
+                          ? work->wanted[j] - massless_answer(tree, work, j, z[j])
                           : 0;
         solve(work, left);
         tree_system_answer(model, at, left);

@@ -81,6 +81,7 @@ static void answer(struct fbd_state *state, const struct instant *at, const stru
     tree_outward(tree, work, 1, tree->count, work->unit);
     for (int k = 0; k < tree_unknowns(tree); k++)
         work->z[k] = k < tree->row_count && tree_takes_part(tree, at, k) ? -tree_row_answer(work, k) : 0;
+    tree_want_massless(tree, work, work->unit, work->z);
 }
 
 /* Add the velocities in work->x and work->unit, and the solved multipliers, z or NULL, to column j. */

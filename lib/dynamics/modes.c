@@ -221,7 +221,7 @@ static void note_rests(struct fbd_state *state)
         state->slip_rests[pair] = state->slip[pair] == stick;
 }
 
-bool modes_settle(struct fbd_state *state, const struct decided *decided)
+static bool settle_all(struct fbd_state *state, const struct decided *decided)
 {
     struct sliding *sliding = state->sliding;
     note_rests(state);
@@ -231,4 +231,12 @@ bool modes_settle(struct fbd_state *state, const struct decided *decided)
         sliding->keep[i] = sliding->slide_at[i] > 0 || (decided && decided->branches[i]);
     sliding_keep_rest(state);
     return sliding_settle(state, decided, settle(state, decided), settle);
+}
+
+bool modes_settle(struct fbd_state *state, const struct decided *decided)
+{
+    state->tree->tentative = true;
+    const bool settled = settle_all(state, decided);
+    state->tree->tentative = false;
+    return settled;
 }

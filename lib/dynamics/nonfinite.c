@@ -8,6 +8,7 @@
 #include "dynamics/energy.h"
 #include "dynamics/friction.h"
 #include "dynamics/kinematics.h"
+#include "dynamics/tree.h"
 
 const char *nonfinite_reason(double value)
 {
@@ -162,6 +163,18 @@ static bool note_limits(const struct fbd_state *state, struct nonfinite *found)
                 return true;
     }
     return false;
+}
+
+bool nonfinite_is_massless(const struct fbd_state *state, struct nonfinite *found)
+{
+    const struct fbd_model *model = state->model;
+    const struct tree_massless *of = state->tree->unmoved;
+    if (!of) return false;
+    const struct tree_link *link = &model->tree->links[of->link];
+    const struct model_body *body = &model->bodies[link->body];
+    nonfinite_note(found, NAN, body->source->at, "no inertia resists the motion along `%s.%s`", body->name,
+                   model->scene->coordinates[link->coordinate + of->local].name);
+    return true;
 }
 
 bool nonfinite_find(const struct fbd_state *state, struct nonfinite *found)

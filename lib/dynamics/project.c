@@ -181,10 +181,10 @@ static void move(const struct place *place, bool velocity, double share)
 
 static void factor(const struct place *place, double damping)
 {
-    place->at.tree->projecting = true;
+    place->at.tree->projecting = place->at.tree->placing = true;
     place->at.tree->damping = damping;
     tree_system_factor(place->model, &place->at);
-    place->at.tree->projecting = false;
+    place->at.tree->projecting = place->at.tree->placing = false;
 }
 
 static void refactor(const struct place *place, double damping)
@@ -231,7 +231,7 @@ static bool sets_out(const struct fbd_state *state, double arm)
         a = fmax(a, vec_norm(s->A.a) + fabs(s->A.alpha) * arm);
         force = fmax(force, fmax(vec_norm(tree->links[i].force), vec_norm(s->F.force)));
         force = fmax(force, fabs(s->F.moment) / arm);
-        lightest = fmin(lightest, tree->links[i].mass);
+        if (tree->links[i].mass > 0) lightest = fmin(lightest, tree->links[i].mass);
     }
     for (int j = 0; j < tree->row_count; j++) {
         const struct row *row = &state->tree->rows[j];

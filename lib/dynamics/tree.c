@@ -283,7 +283,7 @@ static void add_accelerations(const struct tree *tree, struct tree_work *work)
 }
 
 /* Solve for the multipliers, given the accelerations without them. */
-static void solve_system(const struct fbd_model *model, const struct instant *at)
+static void solve_system(const struct fbd_model *model, const struct instant *at, const double *a)
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
@@ -293,6 +293,7 @@ static void solve_system(const struct fbd_model *model, const struct instant *at
         double N = vec_dot(tree_normal(tree, work, i), work->links[i].F.force);
         work->z[tree->row_count + k] = -tree_slip_share(model, at, i) * N;
     }
+    tree_want_massless(tree, work, a, work->z);
     tree_system_factor(model, at);
     tree_system_solve(model, at, work->z);
 }
@@ -302,7 +303,8 @@ static void close_system(const struct fbd_model *model, const struct instant *at
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
-    const bool free = tree->watched_count + tree->pair_count == 0 && tree_rows_are_idle(tree, at);
+    const bool free = tree->watched_count + tree->pair_count == 0 && tree_rows_are_idle(tree, at) &&
+                      !tree_lacks_inertia(tree, work);
     constraints_select(tree, at);
     if (free) {
         tree_system_empty(model, work);
@@ -311,7 +313,7 @@ static void close_system(const struct fbd_model *model, const struct instant *at
             constraints_evaluate_acting(model, at);
         else
             constraints_evaluate(model, at, NULL);
-        solve_system(model, at);
+        solve_system(model, at, a);
     }
     tree_take_multipliers(model, at);
     tree_add_unit(tree, work, a); /* where it is zero: no negative zeros */
@@ -346,7 +348,8 @@ static void constrain(const struct fbd_model *model, const struct instant *at, d
         add_accelerations(tree, work);
     else
         tree_complete(model, work);
-    if (tree->coupling_count > 0 || tree_slips(tree, at)) close_system(model, at, a);
+    if (tree->coupling_count > 0 || tree_slips(tree, at) || tree_lacks_inertia(tree, work))
+        close_system(model, at, a);
     bool holds = false;
     for (int k = 0; k < tree->joined_watched; k++) {
         const struct tree_state *s = &work->links[tree->watched[k]];
@@ -366,5 +369,5 @@ void tree_accelerations(const struct fbd_model *model, const struct instant *at,
     for (int i = tree->joined; i < tree->count; i++) tree_accelerate_alone(model, at, i, slots, a);
     work->complete = work->shared = false;
     work->fastest = -1;
-    if (tree->joined_watched + tree->coupling_count > 0) constrain(model, at, slots, a);
+    if (tree->joined_watched + tree->coupling_count + tree->massless_count > 0) constrain(model, at, slots, a);
 }

@@ -54,6 +54,7 @@ struct tree_state {
             double turning;     /* its rotation per length: the curvature, or 0 if the body does not turn */
         };
     };
+    double added[2]; /* the inertia that is added to the joint, as in struct tree_link, or 0 */
     bool locked;     /* the joint sticks */
     double held;     /* then the acceleration of its surface */
     struct wrench F; /* the wrench from the joint on the link, by tree_complete */
@@ -112,10 +113,13 @@ struct tree_work {
     double *a, *a_along;    /* n: accelerations of the last force_balance, and their variation */
     double *taken;          /* n: the result of tree_rounding */
     double most;            /* the largest scale of a row */
+    const struct tree_massless *unmoved; /* a coordinate whose motion no inertia resists, or NULL */
     double *scale;          /* unknowns: largest possible diagonals, see constraint_solve.c */
     double damping;         /* of a projection: relative squares of slopes below this are damped out */
     double accuracy;        /* relative, of projected coordinates */
     bool projecting;        /* the system is set up for a projection: no friction */
+    bool tentative;         /* modes are tried: a motion without inertia has the one that is added */
+    bool placing;           /* a projection: inertias that are added are part of its metric */
     bool settling_down;     /* contacts are projected by their gaps only, without sticking friction */
     struct tree_loop *loop; /* of three links, if that is the scene, or NULL: see tree_loop.h */
     bool placed;            /* the places of the unknowns are final: there are no modes */
@@ -265,6 +269,18 @@ static inline struct vec tree_normal(const struct tree *tree, const struct tree_
 {
     return vec_scale(tree->links[i].side, vec_perp(work->links[i].e));
 }
+
+/* Is an inertia added to a coordinate, by tree_factor? */
+static inline double tree_added(const struct tree *tree, const struct tree_work *work,
+                                const struct tree_massless *massless)
+{
+    const struct tree_state *s = &work->links[massless->link];
+    const struct joint_type *joint = link_joint(&tree->links[massless->link]);
+    return s->locked ? 0 : s->added[massless->local > 0 && massless->local == joint->angle];
+}
+
+/* Does any coordinate have one? */
+bool tree_lacks_inertia(const struct tree *tree, const struct tree_work *work);
 
 /* The normal force at the slide of link i for the right-hand side solved last. */
 double tree_normal_in(const struct tree *tree, const struct tree_work *work, int i);

@@ -172,6 +172,7 @@ static void vary_answers(const struct fbd_model *model, const struct instant *at
     for (int j = 0; j < tree->row_count; j++) work->z[j] = -(work->rows[j].g.d2 + tree_row_answer(work, j));
     for (int k = 0; k < tree->pair_count; k++)
         work->z[tree->row_count + k] = friction_along_base(model, at, along, tree->pairs[k]);
+    tree_want_massless(tree, work, a_along, work->z);
     tree_system_solve(model, at, work->z);
     tree_add_unit(tree, work, a_along);
     if (holds(tree, work)) tree_rest(model, at, true, a_along);
@@ -189,6 +190,6 @@ void tree_accelerations_along(const struct fbd_model *model, const struct instan
     for (int i = tree->joined; i < tree->count; i++)
         tree_vary_alone(model, at, along, i, slots, slots_along, a_along);
     if (tree_joins(tree)) vary_joined(model, at, along, slots, a, slots_along, a_along);
-    if (tree->coupling_count > 0 || tree_slips(tree, at))
+    if (tree->coupling_count > 0 || tree_slips(tree, at) || tree_lacks_inertia(tree, at->tree))
         vary_answers(model, at, along, slots_along, a_along);
 }

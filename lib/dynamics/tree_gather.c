@@ -139,9 +139,10 @@ static bool answers_alone(struct gathered *all, size_t k)
     tree_outward(tree, work, 1, tree->count, work->unit);
     add_answers(all, k);
     double alone = fmax(all->problem.A[k * all->problem.count + k], least_answer(state, all->pair[k]));
-    if (tree->coupling_count == 0) return false;
+    if (tree->coupling_count == 0 && !tree_lacks_inertia(tree, work)) return false;
     for (int j = 0; j < tree_unknowns(tree); j++)
         work->z[j] = j < tree->row_count ? -tree_row_answer(work, j) : 0;
+    tree_want_massless(tree, work, work->unit, work->z);
     tree_system_solve(state->model, &all->at, work->z);
     add_answers(all, k);
     for (size_t g = 0; g < all->problem.guide_count; g++) { /* of a slot: the multiplier of its normal row */

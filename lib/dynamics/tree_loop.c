@@ -120,7 +120,7 @@ static bool names_others(const struct fbd_model *model)
 bool tree_loop_may_be(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
-    return tree->count == 4 && tree->coupling_count == 1 && model->plan.n == 3;
+    return tree->count == 4 && tree->coupling_count == 1 && tree->massless_count == 0 && model->plan.n == 3;
 }
 
 bool tree_loop_find(const struct fbd_model *model, struct tree_loop *loop)

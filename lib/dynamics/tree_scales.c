@@ -6,7 +6,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "dynamics/tree_system.h"
+#include "dynamics/tree_unknowns.h"
 
 /* The acceleration of a point at `arm` from the O of a link by a unit force in the best direction, through
  * its joint, or if that is locked, through the joint before it. */
@@ -61,13 +61,13 @@ void tree_set_scales(const struct tree *tree, struct tree_work *work)
                 if (tree->couplings[i].kind == constraint_resistance)
                     size *= vec_dot(row->ports[k].force, row->ports[k].force);
                 scale = fmax(scale, size);
-                if (link > 0) lightest = fmin(lightest, tree->links[link].mass);
+                if (link > 0 && tree->links[link].mass > 0) lightest = fmin(lightest, tree->links[link].mass);
             }
             scale = fmax(scale, work->diagonal[j]);
         }
         for (int j = first; j < end; j++) work->scale[j] = work->place[j] < 0 ? 1 : scale / apart;
         most = fmax(most, scale);
     }
-    for (int k = tree->row_count; k < tree_unknowns(tree); k++) work->scale[k] = work->diagonal[k];
+    for (int k = tree->row_count; k < tree_unknowns(tree); k++) work->scale[k] = unknown_is_massless(tree, k) ? 0 : work->diagonal[k];
     work->most = fmax(most, 1 / lightest);
 }

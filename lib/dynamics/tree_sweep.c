@@ -30,6 +30,9 @@
  *             J_G alpha + p_m + h . M^-1 (gf - p_f) with J_G = J - h . M^-1 h, which is g for a planar body; the
  *             parent of a particle receives J_G, of a planar body only g and gf
  *
+ * A joint to which an inertia w is added (model/tree_massless.c) has D = 1 / (S . U + w), and then all of I'
+ * and p' are those above, also for a pivot.
+ *
  * Checked against Kane's equations with a separate mass matrix, Newton's and Euler's for each body
  * (tests/unit/test_tree.c), and inverse dynamics of long chains (test_chain.c).
  */
@@ -47,58 +50,100 @@ static void factor_pivot(const struct tree_link *link, int i, struct tree_state 
     *rest = link->end == i + 1 ? tree_last_pivot(s->across, s->mr, s->D) : tree_pivot(I, s->D);
 }
 
-static void factor_slide(struct tree_state *s, struct inertia_about_O *rest)
+/* The inertia `added` to a coordinate whose own, by the bodies that it carries, is smaller. */
+static double added_to(double added, double own)
+{
+    return added > 0 && !(own > added / 2) ? added : 0;
+}
+
+/* A pivot with an added inertia; false if its own suffices. */
+static bool factor_massless_pivot(const struct tree_link *link, struct tree_state *s,
+                                  struct inertia_about_O *rest)
+{
+    const struct inertia_about_O *I = &s->I;
+    const double w = s->added[0] = added_to(link->added[0], I->J);
+    if (w == 0) return false;
+    s->D = 1 / (I->J + w);
+    struct vec hD = vec_scale(s->D, I->h);
+    *rest = (struct inertia_about_O){w * s->D * I->J, vec_scale(w * s->D, I->h), I->xx - hD.x * I->h.x,
+                                     I->xy - hD.x * I->h.y, I->yy - hD.y * I->h.y};
+    return true;
+}
+
+static inline __attribute__((always_inline)) void
+factor_slide(const struct tree_link *link, struct tree_state *s, struct inertia_about_O *rest, bool massless)
 {
     const struct inertia_about_O *I = &s->I;
     s->U = inertia_times(I, s->e);
     s->Uh = vec_dot(I->h, s->e);
-    s->D = 1 / vec_dot(s->e, s->U);
+    double own = vec_dot(s->e, s->U);
+    if (massless) own += s->added[0] = added_to(link->added[0], own);
+    s->D = 1 / own;
     struct vec UD = vec_scale(s->D, s->U);
     *rest = (struct inertia_about_O){I->J - s->D * s->Uh * s->Uh, vec_sub(I->h, vec_scale(s->Uh, UD)),
                                      I->xx - UD.x * s->U.x, I->xy - UD.x * s->U.y, I->yy - UD.y * s->U.y};
 }
 
 /* As a slide that rotates by `turning` per length. */
-static void factor_track(struct tree_state *s, struct inertia_about_O *rest)
+static void factor_track(const struct tree_link *link, struct tree_state *s, struct inertia_about_O *rest)
 {
     const struct inertia_about_O *I = &s->I;
     s->U = vec_add(inertia_times(I, s->e), vec_scale(s->turning, I->h));
     s->Uh = vec_dot(I->h, s->e) + s->turning * I->J;
-    s->D = 1 / (vec_dot(s->e, s->U) + s->turning * s->Uh);
+    const double own = vec_dot(s->e, s->U) + s->turning * s->Uh;
+    s->added[0] = added_to(link->added[0], own);
+    s->D = 1 / (own + s->added[0]);
     struct vec UD = vec_scale(s->D, s->U);
     *rest = (struct inertia_about_O){I->J - s->D * s->Uh * s->Uh, vec_sub(I->h, vec_scale(s->Uh, UD)),
                                      I->xx - UD.x * s->U.x, I->xy - UD.x * s->U.y, I->yy - UD.y * s->U.y};
 }
 
-static void factor_free(const struct tree_link *link, struct tree_state *s, struct inertia_about_O *rest)
+/* The smaller eigenvalue of M is at least det M / trace M. */
+static double least_mass(const struct inertia_about_O *I)
+{
+    const double trace = I->xx + I->yy;
+    return trace > 0 ? (I->xx * I->yy - I->xy * I->xy) / trace : 0;
+}
+
+static inline __attribute__((always_inline)) void
+factor_free(const struct tree_link *link, struct tree_state *s, struct inertia_about_O *rest, bool massless)
 {
     const struct inertia_about_O *I = &s->I;
-    double det = I->xx * I->yy - I->xy * I->xy;
-    s->inverse[0] = I->yy / det;
+    double xx = I->xx, yy = I->yy;
+    if (massless) {
+        s->added[0] = added_to(link->added[0], least_mass(I));
+        xx += s->added[0];
+        yy += s->added[0];
+    }
+    double det = xx * yy - I->xy * I->xy;
+    s->inverse[0] = yy / det;
     s->inverse[1] = -I->xy / det;
-    s->inverse[2] = I->xx / det;
+    s->inverse[2] = xx / det;
     s->U = (struct vec){s->inverse[0] * I->h.x + s->inverse[1] * I->h.y,
                         s->inverse[1] * I->h.x + s->inverse[2] * I->h.y};
     double J = I->J - vec_dot(I->h, s->U);
+    if (massless) J += s->added[1] = added_to(link->added[1], J);
     s->D = link->kind == motion_planar ? 1 / J : 0;
     *rest = (struct inertia_about_O){link->kind == motion_planar ? 0 : J, {0, 0}, 0, 0, 0};
 }
 
-/* Trees without tracks skip that test for each link: `curved` is a constant in each use. */
+/* Trees without tracks and massless coordinates skip those tests for each link: `curved` is a constant in each use. */
 static inline __attribute__((always_inline)) void
 factor_link(const struct tree_link *link, int i, struct tree_state *s, struct tree_state *parent, bool curved)
 {
     struct inertia_about_O rest;
     if (s->locked)
         rest = s->I;
+    else if (curved && link->kind == motion_pivot && factor_massless_pivot(link, s, &rest))
+        (void)0;
     else if (link->kind == motion_pivot)
         factor_pivot(link, i, s, &rest);
     else if (link->kind == motion_slide)
-        factor_slide(s, &rest);
+        factor_slide(link, s, &rest, curved);
     else if (curved && link->kind == motion_track)
-        factor_track(s, &rest);
+        factor_track(link, s, &rest);
     else
-        factor_free(link, s, &rest);
+        factor_free(link, s, &rest, curved);
     if (link->parent > 0) inertia_add(&parent->I, &rest, s->d);
 }
 
@@ -113,7 +158,7 @@ static inline __attribute__((always_inline)) void inward_link(const struct tree_
         /* rigid */
     } else if (link->kind == motion_pivot) {
         x->u = x->g - x->p.moment;
-        rest.moment = x->g;
+        rest.moment = curved ? x->g - s->added[0] * s->D * x->u : x->g;
         rest.force = vec_add(rest.force, vec_scale(x->u * s->D, s->I.h));
     } else if (link->kind == motion_slide) {
         x->u = x->g - vec_dot(s->e, x->p.force);
@@ -244,6 +289,9 @@ static inline __attribute__((always_inline)) void outward(const struct tree *tre
         x->A = acceleration_at(parent->A, s->d);
         if (s->locked) {
             own[0] = 0;
+        } else if (curved && s->added[0] > 0 && link->kind == motion_pivot) {
+            own[0] = s->D * (x->u - s->I.J * x->A.alpha - vec_dot(s->I.h, x->A.a));
+            x->A.alpha += own[0];
         } else if (link->kind == motion_pivot) {
             x->A.alpha = s->D * (x->u - vec_dot(s->I.h, x->A.a));
             own[0] = x->A.alpha - parent->A.alpha;

@@ -32,6 +32,9 @@ void tree_system_solve(const struct fbd_model *model, const struct instant *at, 
 /* Add work->unit to the entries of a that belong to joints. */
 void tree_add_unit(const struct tree *tree, const struct tree_work *work, double *a);
 
+/* Set the right-hand side of massless coordinates for the accelerations a of the joints. */
+void tree_want_massless(const struct tree *tree, const struct tree_work *work, const double *a, double *z);
+
 /* J a of row j for the accelerations work->x.A. */
 double tree_row_answer(const struct tree_work *work, int j);
 

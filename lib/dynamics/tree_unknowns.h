@@ -8,10 +8,21 @@
 
 #include "dynamics/tree_system.h"
 
-/* Is it a row of a coupling? Else it is the friction of a slide. */
+/* Is it a row of a coupling? */
 static inline bool unknown_is_row(const struct tree *tree, int k)
 {
     return k < tree->row_count;
+}
+
+/* Is it the force along a massless coordinate? */
+static inline bool unknown_is_massless(const struct tree *tree, int k)
+{
+    return k >= tree->row_count + tree->pair_count;
+}
+
+static inline const struct tree_massless *massless_of(const struct tree *tree, int k)
+{
+    return &tree->massless[k - tree->row_count - tree->pair_count];
 }
 
 /* Entry k of the row or column j, stored from column or row first[j]. */

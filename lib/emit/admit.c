@@ -10,6 +10,7 @@
 
 #include "document/node.h"
 #include "emit/emit.h"
+#include "model/model.h"
 #include "scene/language.h"
 
 /* ---- the keys of the file */
@@ -200,6 +201,9 @@ bool emit_admits(const struct fbd_model *model, fbd_errors *errors)
     size_t before = fbd_errors_failed_count(errors);
     diag_in_file(errors, scene->file);
     check_file(model, errors);
+    for (size_t b = 0; b < scene->body_count; b++)
+        if (model->bodies[b].inertia.mass == 0)
+            refuse(errors, scene->bodies[b].at, "the body without mass", scene->bodies[b].name);
     for (size_t c = 0; c < scene->constraint_count; c++)
         lacks(errors, scene->constraints[c].at, constraint_laws[scene->constraints[c].kind].not_as_c,
               scene->constraints[c].name);

@@ -8,6 +8,7 @@
 #include "dynamics/energy.h"
 #include "dynamics/friction.h"
 #include "dynamics/impulse.h"
+#include "dynamics/nonfinite.h"
 #include "dynamics/project.h"
 #include "dynamics/tree_driven.h"
 #include "dynamics/tree_system.h"
@@ -355,8 +356,14 @@ static void fail_impact(struct run *run, enum impacts_end end, enum impact_law l
         [impacts_unsolvable] = "have no solution by their law: with `law: stronge` they may have one",
         [impacts_lost] = lost,
     };
+    struct nonfinite found;
     if (end == impacts_no_memory)
         run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
+    else if (nonfinite_is_massless(run->state, &found))
+        run_fail(run, FBD_FAILED,
+                 "at t = %.9g %s in an impact, in which ropes may become slack: give that body a small mass, or "
+                 "end the run earlier by an event",
+                 run_time(run), found.what);
     else if (end == impacts_unsolvable && !impact_by_velocity(law))
         run_fail(run, FBD_FAILED,
                  "at t = %.9g the impulses of an impact have no solution: friction on a guide or in a slot "

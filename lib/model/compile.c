@@ -91,6 +91,41 @@ static void set_line(struct model_body *body)
     body->origin = motion->through;
 }
 
+/* Is it stated that the body has no mass, or as a pulley of one piece no moment of inertia? */
+static bool is_light(const struct model_body *body)
+{
+    const struct part *parts = body->source->parts;
+    const size_t count = body->source->part_count;
+    if (count == 1 && parts[0].shape == shape_given) return body->inertia.I_G == 0;
+    for (size_t i = 0; i < count; i++)
+        if (parts[i].mass != 0) return false;
+    return true;
+}
+
+/* Refuse massless bodies where their motion is not covered: on contacts, and free on a moving body. */
+static void check_massless(const struct builder *builder)
+{
+    const struct tree *tree = builder->model->tree;
+    for (int k = 0; k < tree->massless_count; k++) {
+        const struct tree_link *link = &tree->links[tree->massless[k].link];
+        const struct model_body *body = &builder->model->bodies[link->body];
+        bool touches = false;
+        for (int c = 0; c < tree->coupling_count; c++)
+            for (int end = 0; end < tree->couplings[c].end_count; end++)
+                touches |= tree->couplings[c].meeting >= 0 &&
+                           tree->couplings[c].end[end].link == tree->massless[k].link;
+        if (touches)
+            diag_add(builder->errors, FBD_ERROR, "not-here", body->source->at, "give it a small mass",
+                     "`%s` has no mass and can touch other bodies: an impact on it has no result", body->name);
+        else if (link->parent > 0 && link_joint(link)->count > 1)
+            diag_add(builder->errors, FBD_ERROR, "not-here", body->source->at, "give it a small mass",
+                     "`%s` has no mass and moves freely on a body that moves", body->name);
+        else
+            continue;
+        return;
+    }
+}
+
 static void check_inertia(const struct model_body *body, fbd_errors *errors)
 {
     const struct inertia *inertia = &body->inertia;
@@ -100,7 +135,7 @@ static void check_inertia(const struct model_body *body, fbd_errors *errors)
     if (!isfinite(inertia->mass) || !isfinite(inertia->I_G) || (turns && !isfinite(least)))
         diag_add(errors, FBD_ERROR, "bad-inertia", at, "check for quantities near the limits of a double",
                  "the mass or moment of inertia of `%s` is not finite", body->name);
-    else if (inertia->mass <= 0)
+    else if (inertia->mass < 0 || (inertia->mass == 0 && !is_light(body)))
         diag_add(errors, FBD_ERROR, "bad-inertia", at,
                  "holes must have less mass than the parts that they are cut from",
                  "the total mass of `%s` is %g: it must be positive", body->name, inertia->mass);
@@ -109,7 +144,7 @@ static void check_inertia(const struct model_body *body, fbd_errors *errors)
                  "does each hole lie within the body, and is it smaller?",
                  "the moment of inertia of `%s` about its centre of mass is %g: no body has that", body->name,
                  inertia->I_G);
-    else if (turns && least <= 0)
+    else if (turns && (least < 0 || (least == 0 && !is_light(body))))
         diag_add(errors, FBD_ERROR, "bad-inertia", at,
                  "give it a `shape`, `parts` or `inertia`, or let it move as a particle or on a slide",
                  "`%s` turns but has no moment of inertia about %s", body->name,
@@ -391,6 +426,7 @@ static struct fbd_model *compile(struct scene *scene, bool labels, const struct 
                set_carried(&builder) && set_absolutes(model) && set_output_points(model) &&
                tree_number(model) && tracks_set(&builder) && tree_name_reactions(model) &&
                arrows_name(model) && plan_build(&builder) && classify_loads(&builder);
+        if (done) check_massless(&builder);
         set_rates(&builder);
         set_watches(&builder);
         if (done) done = slips_find(model);

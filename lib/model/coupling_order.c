@@ -8,13 +8,13 @@
  * numbered along it. A file may list couplings and bodies in any order; so they are renumbered from one end
  * of each connected part to the other by George's reverse Cuthill-McKee order (George and Liu, Computer
  * Solution of Large Sparse Positive Definite Systems, 1981, chapter 4). That order is used if its envelope is
- * smaller than that of the order of the file.
+ * smaller than that of the order of the file. Massless coordinates are eliminated last (tree_massless.c).
  */
 #include <string.h>
 
 #include "model/model.h"
 
-/* Unknowns that are kept together: the rows of a coupling, or the friction of a slide. */
+/* Unknowns that are kept together: the rows of a coupling, the friction of a slide, or a massless coordinate. */
 struct group {
     int first, count;
     const int *roots;
@@ -23,8 +23,8 @@ struct group {
 
 struct graph {
     const struct tree *tree;
-    int group_count, unknowns;
-    struct group *groups;
+    int group_count, unknowns; /* without massless coordinates, which come last */
+    struct group *groups;      /* with them */
     int *at_root, *members; /* groups of the tree with first link i: members[at_root[i]] to at_root[i + 1] */
     int *queue, *level;     /* groups in search order, and their distance; -1: not visited */
     bool *root_seen;
@@ -41,6 +41,9 @@ static void set_groups(struct graph *graph)
     for (int k = 0; k < tree->pair_count; k++)
         graph->groups[tree->coupling_count + k] =
             (struct group){tree->row_count + k, 1, &tree->links[tree->pairs[k]].root, 1};
+    for (int k = 0; k < tree->massless_count; k++)
+        graph->groups[graph->group_count + k] =
+            (struct group){graph->unknowns + k, 1, &tree->links[tree->massless[k].link].root, 1};
 }
 
 static void set_members(struct graph *graph)
@@ -64,7 +67,7 @@ static bool make_graph(struct graph *graph, const struct tree *tree, struct aren
     size_t members = 0;
     *graph = (struct graph){.tree = tree, .group_count = (int)groups};
     graph->unknowns = tree->row_count + tree->pair_count;
-    graph->groups = ARENA_ARRAY(arena, groups, struct group);
+    graph->groups = ARENA_ARRAY(arena, groups + (size_t)tree->massless_count, struct group);
     graph->at_root = ARENA_ARRAY(arena, links + 1, int);
     graph->queue = ARENA_ARRAY(arena, groups, int);
     graph->level = ARENA_ARRAY(arena, groups, int);
@@ -138,8 +141,8 @@ static void set_order(struct graph *graph, int *unknown_at)
 /* Compute the envelope of the order in unknown_at. */
 static void set_envelope(struct graph *graph, struct tree *tree, int *group_of, int *lowest, int *highest)
 {
-    int m = graph->unknowns;
-    for (int g = 0; g < graph->group_count; g++)
+    int m = graph->unknowns + tree->massless_count, groups = graph->group_count + tree->massless_count;
+    for (int g = 0; g < groups; g++)
         for (int i = 0; i < graph->groups[g].count; i++) group_of[graph->groups[g].first + i] = g;
     for (int i = 0; i < tree->count; i++) lowest[i] = m;
     for (int p = 0; p < m; p++) {
@@ -180,7 +183,7 @@ bool couplings_order(struct fbd_model *model)
     struct tree *tree = model->tree;
     struct arena *arena = &model->arena;
     struct graph graph;
-    int m = tree->row_count + tree->pair_count;
+    int m = tree->row_count + tree->pair_count + tree->massless_count;
     if (!allocate(tree, arena, (size_t)m) || !make_graph(&graph, tree, arena)) return false;
     int *group_of = ARENA_ARRAY(arena, (size_t)m, int), *lowest, *highest;
     lowest = ARENA_ARRAY(arena, (size_t)tree->count, int);

@@ -57,7 +57,7 @@ struct inertia inertia_of_parts(const struct part *parts, size_t count, struct v
         moment = vec_add(moment, vec_scale(parts[i].mass, parts[i].center));
     }
     /* A single part keeps its centre without rounding. */
-    sum.G = count == 1 ? parts[0].center : vec_scale(1 / sum.mass, moment);
+    sum.G = count == 1 || sum.mass == 0 ? parts[0].center : vec_scale(1 / sum.mass, moment);
     for (size_t i = 0; i < count; i++) {
         struct vec d = vec_sub(parts[i].center, sum.G);
         sum.I_G += part_inertia(&parts[i], pivot) + parts[i].mass * vec_dot(d, d);

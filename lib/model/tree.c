@@ -24,7 +24,9 @@ static void mark_jointed(const struct fbd_model *model, bool *jointed)
     for (size_t b = 0; b < scene->body_count; b++) {
         const struct motion *motion = &scene->bodies[b].motion;
         const int parent = motion->parent;
-        if (motion->prescribed.expr || motion->curve || scene->bodies[b].mass.expr) jointed[b] = true;
+        if (motion->prescribed.expr || motion->curve || scene->bodies[b].mass.expr ||
+            model->bodies[b].inertia.mass == 0)
+            jointed[b] = true;
         if (parent != ground_body) jointed[b] = jointed[parent] = true;
     }
     for (size_t c = 0; c < scene->force_coupling_count; c++)

@@ -57,6 +57,14 @@ struct tree_link {
     int normal_slot; /* slot of minus its normal force, or -1 */
     int root;        /* the first link of its tree */
     int end;         /* links from its own number up to this one (not included) move with it */
+    double added[2]; /* inertia that may be added to its joint, see tree_massless.c: of its only coordinate, or
+                      * mass and moment of inertia of a free joint; 0 if it has its own */
+};
+
+/* A coordinate of a link without inertia of its own. */
+struct tree_massless {
+    int link, local; /* the number of the coordinate in its joint */
+    double added;    /* mass or moment of inertia that may be added, as of the link */
 };
 
 /* A constant force that turns with its link, and its moment about O. */
@@ -144,7 +152,7 @@ struct tree {
     struct link_loads joined_loads; /* those that act on jointed links, which come first */
     struct link_loads *alone_loads; /* of each link that stands alone, from `joined` on */
     bool loaded;                    /* a load of the lists above acts on jointed links */
-    bool curved;                    /* there are tracks */
+    bool curved;                    /* there are tracks, or massless coordinates */
     double mass_ratio;              /* heaviest over lightest link */
     int pair_count;                 /* jointed links whose dry friction depends on a normal force */
     int *pairs;                     /* their numbers */
@@ -157,7 +165,10 @@ struct tree {
     bool reacts;       /* events name the forces of pivots */
     int meeting_count; /* see contact.h */
     struct meeting *meetings;
-    /* of the unknowns of dynamics/tree_system.h, first the rows, then the friction modes: */
+    int massless_count; /* coordinates without inertia of their own */
+    struct tree_massless *massless;
+    /* of the unknowns of dynamics/tree_system.h, first the rows, then the friction modes, then massless
+     * coordinates: */
     int *coupling_of_row; /* rows only */
     int *unknown_at;      /* the unknown at each elimination position */
     int *first, *reach;   /* of a position: the first coupled one, and one past the last */
@@ -200,6 +211,9 @@ bool tree_name_reactions(struct fbd_model *model);
 
 /* Add a load to the lists of the tree and to those of the plan that act in joints. */
 void tree_add_load(struct builder *builder, int index);
+
+/* Find the massless coordinates (tree_massless.c). False when memory is out. */
+bool tree_find_massless(struct fbd_model *model);
 
 /* Compute the constants of the links after all loads are added. False when memory is out. */
 bool tree_finish(struct fbd_model *model);

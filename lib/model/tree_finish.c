@@ -74,5 +74,7 @@ bool tree_finish(struct fbd_model *model)
     tree->mass_ratio = mass_ratio(tree);
     for (int i = 1; i < tree->joined; i++)
         if (tree->links[i].track) tree->curved = true;
+    if (!tree_find_massless(model)) return false;
+    if (tree->massless_count > 0) tree->curved = true;
     return couplings_order(model);
 }

@@ -42,10 +42,19 @@ bool equation_is_written(const struct fbd_model *model, int b, bool cut_free, in
     return cut_free ? !ground || !has_coordinate_along(body, part) : ground;
 }
 
+/* Of such a body the equations are those of statics, 0 = sum of forces. */
+static bool is_massless(const struct fbd_model *model, int b)
+{
+    return model->bodies[b].inertia.mass == 0;
+}
+
 bool equation_in_symbols(const struct fbd_model *model, const struct equation *equation, bool components)
 {
     const fbd_equation *e = &equation->public;
-    return (e->inertia != 0 || e->sum != 0) &&
+    bool acts = e->inertia != 0 || e->sum != 0;
+    for (size_t i = 0; is_massless(model, equation->body) && i < e->term_count; i++)
+        acts |= e->terms[i].value != 0;
+    return acts &&
            equation_is_written(model, equation->body, equation->cut_free, equation->part, components);
 }
 
@@ -293,6 +302,7 @@ const char *formula_term(struct formulas *formulas, const struct equation *equat
 const char *formula_left(struct formulas *formulas, const struct equation *equation)
 {
     const fbd_equation *e = &equation->public;
+    if (e->inertia == 0 && is_massless(formulas->state->model, equation->body)) return "0";
     const char *inertia = strcmp(e->inertia_name, "m") == 0
                               ? symbol_of_mass(formulas->state->model, equation->body, &formulas->arena)
                               : symbol_of_body(formulas, e->inertia_name, equation->body);

@@ -39,6 +39,10 @@ bool result_finite(struct ensemble *ensemble, struct ledger *ledger, const doubl
 {
     struct fbd_state *state = ensemble_state(ensemble);
     struct nonfinite found;
+    if (nonfinite_is_massless(state, &found)) {
+        ensemble_spoil(ensemble, "%s at t = %.9g", found.what, state->t);
+        return false;
+    }
     bool odd = nonfinite_find(state, &found);
     if (!odd && ledger)
         odd = note_work(ledger, state, work, &found) || note_energies(ledger, state, work, &found);

@@ -14,9 +14,22 @@
 #include "rest/balance.h"
 #include "rest/fit.h"
 
+static bool massless_lack(const struct fbd_state *state, struct lack *lack)
+{
+    struct nonfinite found;
+    if (!nonfinite_is_massless(state, &found)) return false;
+    lack->id = "no-inertia";
+    lack->at = found.at;
+    text_printf(&lack->text, "%s at t = ", found.what);
+    text_number(&lack->text, state->t, 9);
+    text_add(&lack->text, ": a body without mass must be joined to one that has some, so that it moves with it");
+    return true;
+}
+
 bool start_finite(const struct fbd_state *state, struct lack *lack)
 {
     struct nonfinite found;
+    if (massless_lack(state, lack)) return false;
     if (!nonfinite_find(state, &found)) return true;
     lack->id = "not-finite";
     lack->at = found.at;

@@ -302,12 +302,13 @@ static bool varies(double mass)
     return isinf(mass);
 }
 
-static bool check_positive_mass(struct reader *reader, const struct node *map, double mass)
+/* Without mass the body must be joined to others that have some: found when all is known. */
+static bool check_mass_of_body(struct reader *reader, const struct node *map, double mass)
 {
-    if (!(mass <= 0)) return true;
+    if (!(mass < 0)) return true;
     diag_add(reader->errors, FBD_ERROR, "out-of-range", node_find(map, "mass")->value->at,
              "a hole is a part of negative mass, among others under `parts`",
-             "the `mass` of a body must be above zero");
+             "the `mass` of a body cannot be below zero");
     return false;
 }
 
@@ -335,7 +336,7 @@ static bool read_single(struct reader *reader, int index)
     body->part_count = 1;
     draft->mass = keys->mass;
     draft->mass_known = check_mass(reader, draft->node, body->at, body->name, keys->mass) &&
-                        check_positive_mass(reader, draft->node, keys->mass);
+                        check_mass_of_body(reader, draft->node, keys->mass);
     if (!read_part(reader, index, draft->node, body->at, keys, body->parts)) return false;
     name_points(reader, body, body->parts);
     if (!draft->mass_varies) body->mass_name = name_of_mass(reader, draft->node);

@@ -18,7 +18,7 @@ struct vec body_centre_of_mass(const struct body *body)
         moment = vec_add(moment, vec_scale(body->parts[i].mass, body->parts[i].center));
     }
     /* the exact centre of a single part, without rounding */
-    return body->part_count == 1 ? body->parts[0].center : vec_scale(1 / mass, moment);
+    return body->part_count == 1 || mass == 0 ? body->parts[0].center : vec_scale(1 / mass, moment);
 }
 
 static void note_unknown_point(struct reader *reader, int index, const struct node *node, const char *what)

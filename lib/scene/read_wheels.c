@@ -48,7 +48,7 @@ bool coupling_ends_read(struct reader *reader, const struct node *list, const ch
 const struct part *body_round_part(const struct body *body)
 {
     for (size_t i = 0; i < body->part_count; i++)
-        if (body->parts[i].radius > 0 && body->parts[i].mass > 0) return &body->parts[i];
+        if (body->parts[i].radius > 0 && body->parts[i].mass >= 0) return &body->parts[i];
     return NULL;
 }
 
