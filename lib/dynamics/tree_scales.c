@@ -68,6 +68,7 @@ void tree_set_scales(const struct tree *tree, struct tree_work *work)
         for (int j = first; j < end; j++) work->scale[j] = work->place[j] < 0 ? 1 : scale / apart;
         most = fmax(most, scale);
     }
-    for (int k = tree->row_count; k < tree_unknowns(tree); k++) work->scale[k] = unknown_is_massless(tree, k) ? 0 : work->diagonal[k];
+    for (int k = tree->row_count; k < tree_unknowns(tree); k++)
+        work->scale[k] = unknown_is_massless(tree, k) ? 0 : work->diagonal[k];
     work->most = fmax(most, 1 / lightest);
 }
