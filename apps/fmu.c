@@ -18,6 +18,14 @@ bool fmu_can_be_made(const struct command_line *line)
                               "");
 }
 
+bool fmu_take_version(const struct command_line *line, const char *text, int *version)
+{
+    unsigned long value;
+    if (!command_line_whole(line, "--fmu-version wants 2 or 3, not ", text, 2, 3, &value)) return false;
+    *version = (int)value;
+    return true;
+}
+
 /* Choose the exit code: an error with a position is one of the file, others are of the command line. */
 static enum exit_code blame(fbd_errors *errors)
 {

@@ -197,14 +197,6 @@ static bool live_can_be_made(void)
         "");
 }
 
-static bool take_fmu_version(int *version)
-{
-    unsigned long value;
-    if (!command_line_whole(&line, "--fmu-version wants 2 or 3, not ", optarg, 2, 3, &value)) return false;
-    *version = (int)value;
-    return true;
-}
-
 static const double tiny = 1e-300; /* excludes 0 */
 
 /* Options of drawings, sheets and grades. */
@@ -291,7 +283,7 @@ static bool take_option(const struct command_line *unused, int option, void *con
     case option_fmu:
         options->fmu = optarg;
         return fmu_can_be_made(&line) && choose_action(options, action_fmu);
-    case option_fmu_version: return take_fmu_version(&options->fmu_version);
+    case option_fmu_version: return fmu_take_version(&line, optarg, &options->fmu_version);
     default: return take_drawing(options, option);
     }
 }
@@ -368,8 +360,7 @@ static bool drawing_agrees(const struct options *options)
         (!options->svg || eigenvalues))
         return usage(
             "--body, --components, --supports, --symbols, --system, --scale, --worksheet and --solution go "
-            "with the "
-            "diagrams of --svg",
+            "with the diagrams of --svg",
             options->drawing.components ? ", --components also with --html, --ledger and --equations" : "");
     if (drawing->worksheet && (drawing->solution || drawing->symbols || drawing->components))
         return usage(

@@ -95,6 +95,7 @@ static const char *name_of(const struct group *group)
            : group == &simulate_group ? "simulate"
            : group == &event_group    ? "event"
            : group == &hand_group     ? "hand"
+           : group == &inertia_group  ? "inertia"
                                       : NULL;
 }
 

@@ -11,6 +11,7 @@ static const struct {
 } needs[] = {
     {"body", "mass parts"},
     {"part", "mass"},
+    {"inertia", "value radius_of_gyration"},
     {"table", "file points"},
     {"hand", "equation conserved"},
     {"force_applied", "value fx fy"},
