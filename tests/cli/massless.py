@@ -23,8 +23,22 @@ def mass(draw):
     return 10 ** draw.uniform(-3, 3)
 
 
-def integrated(acceleration, q, v, steps=4000):
-    """By Runge and Kutta's method of fourth order: q and q' at the end."""
+def integrated(acceleration, q, v):
+    """q and q' at the end, with steps halved until that changes little: past a dead centre a heavy piston stands still
+    and a light crank flies."""
+    steps, last = 1000, None
+    while True:
+        try:
+            now = stepped(acceleration, q, v, steps)
+        except (OverflowError, ValueError):  # too long steps
+            now = None
+        if now and last and all(abs(a - b) <= 1e-7 * (1 + abs(a)) for a, b in zip(now, last)):
+            return now
+        steps, last = 2 * steps, now
+
+
+def stepped(acceleration, q, v, steps):
+    """By Runge and Kutta's method of fourth order."""
     h = UNTIL / steps
     for _ in range(steps):
         k1 = acceleration(q, v)

@@ -5,6 +5,7 @@ the network for nothing, and takes what the model says as data."""
 import json
 import math
 import os
+import re
 import sys
 import tempfile
 import time
@@ -245,7 +246,8 @@ def check_couplings(browser, folder):
               const without = picture();
               run.couplings = all;
               return [coupling.name, whole.reduce((sum, value, i) => sum + (value !== without[i]), 0)]; });""")
-        if not changed or any(pixels < 20 for _, pixels in changed):
+        forces_alone = not re.search(r"^ +- (?!actuator|spring|damper)\w+: ", model.read_text().partition("\ncouplings:")[2], re.M)
+        if not changed and not forces_alone or any(pixels < 20 for _, pixels in changed):
             unseen[model.stem] = changed
         browser.log("browser")  # Chromium's advice for who reads pixels often
     with claim("each coupling of the models is to be seen in its page"):
