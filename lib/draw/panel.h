@@ -15,6 +15,9 @@
 /* Sizes on paper [mm]. */
 static const double label_size = 3.4, note_size = 2.9, longest_arrow = 40, shortest_arrow = 5;
 
+/* Block for a slide without a size in the file: half width and half height on paper [mm]. */
+static const struct vec conventional_block = {9, 6.5};
+
 /* Costs of a label on a line [mm]: the line of a body or an arrow is worth a far place with a leader. */
 static const double on_outline = 60, on_arrow = 60;
 
@@ -61,6 +64,8 @@ struct panel {
     bool shaped;        /* by its shape in the file */
     bool joined;        /* part of the figure of the system, in which all bodies have one origin and scale */
     bool enlarged;      /* drawn to a larger scale than the other bodies of the sheet */
+    struct vec block;   /* half width and half height on paper if it is drawn as a block without a size */
+    struct vec lift;    /* in the figure: of the body from its place in the scene, in the world */
     struct vec base;    /* slide: point of contact with its surface, in the world */
     struct vec seat;    /* wedge: middle of the surface of the body on it, on paper */
 
@@ -102,8 +107,16 @@ double panel_measure(struct panel *panel);
  * is drawn larger. */
 void panel_set_scale(struct panel *panel, double size, double largest);
 
-/* Set the origin and the scale of the figure of the system, in which the bodies stay joined. */
-void panel_join(struct panel *panel, struct vec middle, double millimetres);
+/* Set the origin and the scale of the figure of the system, in which the bodies stay joined, and the share of the
+ * conventional size that blocks without a size have. */
+void panel_join(struct panel *panel, struct vec middle, double millimetres, double share);
+
+/* Move the body in the figure, so that it stands on top of another one. */
+void panel_lift(struct panel *panel, struct vec lift);
+
+/* The largest extent of a slide from its centre of mass in a direction of the world, a unit vector: of its shape,
+ * else of a block of conventional size. */
+double panel_reach(const struct panel *panel, struct vec world);
 
 /* A line with hatching on the side `into`, a unit vector on paper. */
 void panel_hatched_line(struct panel *panel, struct vec from, struct vec to, struct vec into);

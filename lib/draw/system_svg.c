@@ -34,6 +34,13 @@ static struct vec on_paper(const struct figure *figure, int body, const double p
     return panel_point(figure->pen, place(figure, body, vec_of(point)));
 }
 
+/* A place of the scene where something acts on a body. */
+static struct vec at_place(const struct figure *figure, int body, const double world[2])
+{
+    const struct vec lift = body < 0 ? (struct vec){0, 0} : figure->panels[body].lift;
+    return panel_point(figure->pen, vec_add(vec_of(world), lift));
+}
+
 /* ---- size */
 
 static void take_circle(struct box *box, struct vec center, double radius)
@@ -72,6 +79,63 @@ static struct box extent_of(const struct figure *figure)
         }
     }
     return box;
+}
+
+/* ---- blocks of conventional size */
+
+static bool carries(const struct figure *figure, int carrier, int body)
+{
+    while (body >= 0 && body != carrier) body = figure->panels[body].body.carrier;
+    return body >= 0;
+}
+
+static bool is_sizeless(const struct panel *panel)
+{
+    return panel->body.motion == FBD_MOTION_SLIDE && !panel->shaped;
+}
+
+/* The share of their conventional size that blocks have, so that those beside each other do not overlap: their
+ * width is at most `apart` of the distance. Bodies at one place would overlap at any size. */
+static double share_of(const struct figure *figure, double millimetres)
+{
+    const double apart = 0.8, least = 0.15, width = 2 * conventional_block.x;
+    double share = 1;
+    for (size_t a = 0; a < figure->count; a++)
+        for (size_t b = 0; b < a; b++) {
+            const struct panel *one = &figure->panels[a], *other = &figure->panels[b];
+            if (!is_sizeless(one) || !is_sizeless(other) || carries(figure, (int)a, (int)b) ||
+                carries(figure, (int)b, (int)a))
+                continue;
+            const double distance =
+                millimetres * vec_norm(vec_sub(vec_of(one->pose.G), vec_of(other->pose.G)));
+            if (distance > 1e-6) share = fmin(share, apart * distance / width);
+        }
+    return fmax(share, least);
+}
+
+/* How far a body is moved from its place in the scene: one that slides on a surface of a sliding body stands on
+ * top of it, and carries along those on it. */
+static struct vec lift_of(const struct figure *figure, size_t body)
+{
+    const struct panel *panel = &figure->panels[body];
+    if (panel->body.carrier < 0) return (struct vec){0, 0};
+    const struct panel *under = &figure->panels[panel->body.carrier];
+    const struct vec lift = lift_of(figure, (size_t)panel->body.carrier);
+    const struct vec n = vec_of(panel->pose.normal), e = vec_of(under->pose.along);
+    const bool stands = panel->body.motion == FBD_MOTION_SLIDE && panel->body.surface &&
+                        !panel->body.two_sided && under->body.motion == FBD_MOTION_SLIDE;
+    if (!stands || fabs(vec_dot(n, e) * vec_cross(n, e)) > 1e-9) return lift; /* on a slope: a wedge */
+    const double high = vec_dot(n, vec_sub(vec_of(panel->pose.G), vec_of(under->pose.G)));
+    const double least = panel_reach(panel, vec_scale(-1, n)) + panel_reach(under, n);
+    return vec_add(lift, vec_scale(fmax(0, least - high), n));
+}
+
+static bool stack(struct figure *figure)
+{
+    struct vec *lift = ARENA_ARRAY(&figure->arena, figure->count, struct vec);
+    for (size_t b = 0; lift && b < figure->count; b++) lift[b] = lift_of(figure, b);
+    for (size_t b = 0; lift && b < figure->count; b++) panel_lift(&figure->panels[b], lift[b]);
+    return lift != NULL;
 }
 
 /* ---- springs and dampers */
@@ -160,8 +224,8 @@ static void draw_links(struct figure *figure, const fbd_coupling *coupling, size
     for (size_t k = 0; k < coupling->end_count; k++) {
         const fbd_coupling_end end = fbd_view_coupling_end(figure->view, index, k);
         struct vec center = on_paper(figure, end.body, end.point), first = center, leaves = center;
-        if (end.place_count > 0) first = leaves = panel_point(figure->pen, vec_of(end.places[0]));
-        if (end.place_count > 1) leaves = panel_point(figure->pen, vec_of(end.places[1]));
+        if (end.place_count > 0) first = leaves = at_place(figure, end.body, end.places[0]);
+        if (end.place_count > 1) leaves = at_place(figure, end.body, end.places[1]);
         if (end.radius > 0 && end.body < 0)
             svg_circle(&figure->pen->under, "body", center, end.radius * figure->pen->millimetres);
         if (k > 0) panel_line(figure->pen, "thread", last, first, 4);
@@ -185,14 +249,14 @@ static void draw_coupling(struct figure *figure, size_t index)
 
 /* ---- applied forces */
 
-static void draw_force(struct figure *figure, const fbd_force *force)
+static void draw_force(struct figure *figure, const fbd_force *force, struct vec lift)
 {
     struct panel *pen = figure->pen;
     const struct vec f = {force->arrow.fx, -force->arrow.fy};
     const double size = vec_norm(f);
     if (strcmp(force->kind, "applied") != 0 || !(size > 0)) return;
     const struct vec u = vec_scale(1 / size, f),
-                     tail = panel_point(pen, (struct vec){force->arrow.x, force->arrow.y}),
+                     tail = panel_point(pen, vec_add((struct vec){force->arrow.x, force->arrow.y}, lift)),
                      tip = vec_add(tail, vec_scale(force_length, u)), back = vec_sub(tip, vec_scale(2.4, u)),
                      side = vec_scale(1, vec_perp(u)),
                      head[] = {tip, vec_add(back, side), vec_sub(back, side)};
@@ -239,7 +303,9 @@ static bool prepare(struct figure *figure, const fbd_state *state, const fbd_dra
     const struct vec size = vec_sub(box.high, box.low), middle = vec_scale(0.5, vec_add(box.low, box.high));
     const double largest = fmax(size.x, size.y);
     const double millimetres = largest > 0 ? 10 / round_up(10 * largest / figure_size) : 1;
-    for (size_t b = 0; b < figure->count; b++) panel_join(&figure->panels[b], middle, millimetres);
+    const double share = share_of(figure, millimetres);
+    for (size_t b = 0; b < figure->count; b++) panel_join(&figure->panels[b], middle, millimetres, share);
+    if (!stack(figure)) return false;
     *figure->pen = figure->panels[0];
     return true;
 }
@@ -251,7 +317,7 @@ static void draw(struct figure *figure)
     draw_bodies(figure);
     for (size_t b = 0; b < figure->count; b++)
         for (size_t i = 0; i < figure->panels[b].force_count; i++)
-            draw_force(figure, &figure->panels[b].forces[i]);
+            draw_force(figure, &figure->panels[b].forces[i], figure->panels[b].lift);
     labelling_solve(&figure->pen->labels);
     for (size_t i = 0; i < figure->pen->labels.label_count; i++) {
         const struct box box = labelling_box(&figure->pen->labels.labels[i]);

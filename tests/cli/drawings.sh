@@ -61,7 +61,23 @@ check '(the same bytes)' cmp -s out system.svg
 check 'its applied forces have letters' exits 0 draw "$incline" --system
 check '(push)' says '>push</text>' out
 check 'without gravity and reactions' lacks 'class="(gravity|reaction)"|>mg<|>N<' out
+check 'a body on another' exits 0 draw "$models/trees/stacked_blocks.yaml" --system
+check 'stands on top of it' says 'class="body" points="9,-19.5 -9,-19.5 -9,-6.5 9,-6.5"' out
+check 'bodies on two ropes' exits 0 draw "$models/couplings/atwood.yaml" --system
+check 'do not overlap' says 'class="body" points="-1.056,' out
 check '--system is no body alone' exits 2 draw "$crank" --system --body piston
+
+all_drawn() { # the figure of every model, well formed
+    mkdir figures && find "$models" -name '*.yaml' | sort >models.txt
+    while read -r file; do
+        run --quiet --equations --svg "figures/$(basename "$file" .yaml).svg" --system "$file" || {
+            echo "# $file"
+            return 1
+        }
+    done <models.txt
+    python3 -c 'import sys, xml.dom.minidom as x; [x.parse(name) for name in sys.argv[1:]]' figures/*.svg
+}
+check 'every model has a figure of its system' all_drawn
 
 # ---- gears without a shape: the force stands at the mesh, one radius from the axis
 check 'gears' exits 0 draw "$models/couplings/gear_pair.yaml"
