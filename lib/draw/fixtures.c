@@ -437,19 +437,23 @@ static void draw_angle(struct panel *panel, struct vec center, double zero, doub
                   zero, turn, text);
 }
 
-/* Draw a bearing: a triangle on hatched ground, on the side away from the body. */
+void panel_bearing(struct panel *panel, struct vec axis, double down)
+{
+    const struct vec d = {0, down}, foot = vec_add(axis, vec_scale(6, d)), side = {3.6, 0}, wide = {7, 0};
+    const struct vec corners[] = {axis, vec_add(foot, side), vec_sub(foot, side)};
+    svg_polygon(&panel->under, "support", corners, 3);
+    panel_hatched_line(panel, vec_sub(foot, wide), vec_add(foot, wide), d);
+}
+
+/* Draw a bearing on the side away from the body. */
 static void draw_pivot(struct panel *panel)
 {
     struct vec axis = panel_point(panel, panel_place(panel, vec_of(panel->body.pin)));
     struct vec G = vec_sub(panel_point(panel, panel_place(panel, panel->G)), axis);
     bool hangs = vec_norm(G) > 1;
     struct vec d = {0, hangs && G.y > -0.3 * vec_norm(G) ? -1 : 1};
-    if (on_ground(panel) && panel->drawing->supports) {
-        struct vec foot = vec_add(axis, vec_scale(6, d)), side = {3.6, 0}, wide = {7, 0};
-        struct vec corners[] = {axis, vec_add(foot, side), vec_sub(foot, side)};
-        svg_polygon(&panel->under, "support", corners, 3);
-        panel_hatched_line(panel, vec_sub(foot, wide), vec_add(foot, wide), d);
-    }
+    if (on_ground(panel) && panel->drawing->supports)
+        panel_bearing(panel, axis, d.y);
     /* theta is zero where the body's frame is parallel to that of its parent */
     double parent = panel->pose.angle - coordinate_of(panel, panel->body.coordinate);
     struct vec arm = vec_sub(panel->G, vec_of(panel->body.pin));
@@ -473,7 +477,7 @@ bool panel_fixtures_in_front(const struct panel *panel)
 /* Draw the curve near the body; for a body without a size at a separate scale. */
 static void draw_track(struct panel *panel)
 {
-    enum { segments = 40 };
+    const int segments = panel->joined ? 120 : 40;
     const double half = 2 * (panel->drawing->supports ? surface_half : free_half);
     const fbd_track track = fbd_model_track(panel->model, panel->index);
     const double here = coordinate_of(panel, panel->body.coordinate);
@@ -481,6 +485,7 @@ static void draw_track(struct panel *panel)
     double scale =
         panel->sized ? panel->millimetres : fmax(12 * fabs(now.curvature), 6 * half / track.length);
     double first = here - half / scale, last = here + half / scale;
+    if (panel->joined) first = track.start, last = track.start + track.length;
     if (!track.closed) first = fmax(first, track.start), last = fmin(last, track.start + track.length);
     struct vec e = vec_of(panel->pose.along), tangent = vec_of(now.tangent);
     struct vec frame = {vec_dot(tangent, e), vec_cross(tangent, e)}; /* rotation of the curve */

@@ -121,6 +121,9 @@ double panel_reach(const struct panel *panel, struct vec world);
 /* A line with hatching on the side `into`, a unit vector on paper. */
 void panel_hatched_line(struct panel *panel, struct vec from, struct vec to, struct vec into);
 
+/* A bearing: a triangle on hatched ground, below the axis (`down` is 1) or above it (-1). */
+void panel_bearing(struct panel *panel, struct vec axis, double down);
+
 /* Draw the body and its centre of mass. */
 void panel_body(struct panel *panel);
 

@@ -12,7 +12,8 @@
 #include "draw/panel.h"
 #include "fbd_view.h"
 
-static const double margin = 5, heading = 14, figure_size = 110, wall_distance = 26, force_length = 15;
+static const double margin = 5, heading = 14, figure_size = 110, wall_distance = 26, force_length = 15,
+                    drum_radius = 4;
 
 struct figure {
     struct arena arena;
@@ -61,10 +62,26 @@ static void take_body(const struct figure *figure, size_t b, struct box *box)
     for (int i = 0; i < 4; i++) box_take(box, panel_place(panel, corners[i]));
 }
 
+/* The whole curve that a body moves along. */
+static void take_track(const struct figure *figure, size_t b, struct box *box)
+{
+    enum { pieces = 40 };
+    if (figure->panels[b].body.motion != FBD_MOTION_TRACK) return;
+    const fbd_track track = fbd_model_track(figure->model, b);
+    for (int i = 0; i <= pieces; i++) {
+        const double s = track.start + track.length * i / pieces;
+        const fbd_track_place at = fbd_model_track_place(figure->model, b, s);
+        box_take(box, place(figure, figure->panels[b].body.carrier, (struct vec){at.x, at.y}));
+    }
+}
+
 static struct box extent_of(const struct figure *figure)
 {
     struct box box = box_nothing;
-    for (size_t b = 0; b < figure->count; b++) take_body(figure, b, &box);
+    for (size_t b = 0; b < figure->count; b++) {
+        take_body(figure, b, &box);
+        take_track(figure, b, &box);
+    }
     for (size_t i = 0; i < fbd_view_spring_count(figure->view); i++) {
         const fbd_spring spring = fbd_view_spring(figure->view, i);
         box_take(&box, place(figure, spring.body, vec_of(spring.point)));
@@ -217,6 +234,24 @@ static void draw_line(struct figure *figure, const fbd_coupling *coupling, size_
                        vec_scale(-1, panel_direction(n)));
 }
 
+/* A point of the ground that a rod, rope or belt ends at: a drum where the length of the rope changes. */
+static void draw_anchor(struct figure *figure, const fbd_coupling *coupling, struct vec at)
+{
+    struct panel *pen = figure->pen;
+    if (strcmp(coupling->kind, "rope") == 0 && coupling->length == 0) {
+        const struct vec reach = {drum_radius, drum_radius};
+        svg_circle(&pen->under, "body", at, drum_radius);
+        svg_circle(&pen->under, "hole", at, 0.8);
+        box_take(&pen->extent, vec_sub(at, reach));
+        box_take(&pen->extent, vec_add(at, reach));
+    } else if (strcmp(coupling->kind, "rod") == 0) {
+        panel_bearing(pen, at, 1);
+        svg_circle(&pen->under, "hole", at, 1.1);
+    } else {
+        wall(pen, at, (struct vec){0, -1});
+    }
+}
+
 /* A rod, rope or belt: lines between the places where it acts. */
 static void draw_links(struct figure *figure, const fbd_coupling *coupling, size_t index)
 {
@@ -229,7 +264,7 @@ static void draw_links(struct figure *figure, const fbd_coupling *coupling, size
         if (end.radius > 0 && end.body < 0)
             svg_circle(&figure->pen->under, "body", center, end.radius * figure->pen->millimetres);
         if (k > 0) panel_line(figure->pen, "thread", last, first, 4);
-        if (end.body < 0 && !(end.radius > 0)) wall(figure->pen, center, (struct vec){0, -1});
+        if (end.body < 0 && !(end.radius > 0)) draw_anchor(figure, coupling, center);
         last = leaves;
     }
 }

@@ -65,6 +65,11 @@ check 'a body on another' exits 0 draw "$models/trees/stacked_blocks.yaml" --sys
 check 'stands on top of it' says 'class="body" points="9,-19.5 -9,-19.5 -9,-6.5 9,-6.5"' out
 check 'bodies on two ropes' exits 0 draw "$models/couplings/atwood.yaml" --system
 check 'do not overlap' says 'class="body" points="-1.056,' out
+check 'a track' exits 0 draw "$models/tracks/loop_the_loop.yaml" --system
+check 'is drawn whole' sh -c '[ "$(grep -o "class=\"ground\".* y2=\"-50\"" out | wc -l)" -ge 1 ]'
+check 'a rope that a winch winds up' exits 0 draw "$models/couplings/winch.yaml" --system
+check 'has a drum' says 'circle class="body" [^>]*r="4"' out
+check 'and no wall' lacks 'class="hatch"' out
 check '--system is no body alone' exits 2 draw "$crank" --system --body piston
 
 all_drawn() { # the figure of every model, well formed
