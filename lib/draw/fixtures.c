@@ -255,6 +255,13 @@ static void draw_sizeless(struct panel *panel)
         svg_circle(&panel->under, point ? "mass" : "body", G, point ? dot_radius : 8);
         return;
     }
+    if (panel->joined && panel->plate.rods > 1) { /* the end of a truss, on a roller */
+        const double r = panel->block.y / 2;
+        const struct vec n = panel_direction(vec_of(panel->pose.normal));
+        svg_circle(&panel->under, "support", vec_sub(G, vec_scale(r, n)), r);
+        svg_circle(&panel->under, "hole", G, 1.1);
+        return;
+    }
     const struct vec half = block_half(panel);
     struct vec along = vec_scale(half.x, panel_direction(vec_of(panel->pose.along))),
                up = vec_scale(half.y, panel_direction(vec_of(panel->pose.normal)));
@@ -382,6 +389,14 @@ static const char *angle_text(struct panel *panel, const char *name, double angl
                              : arena_printf(panel->arena, "%s%s%.4g rad", name, minus, fabs(angle));
 }
 
+void panel_slope(struct panel *panel, struct vec foot, struct vec up)
+{
+    const double side = up.x < 0 ? -1 : 1, turn = atan2(up.y, fabs(up.x));
+    panel_line(panel, "reference", foot, vec_add(foot, (struct vec){18 * side, 0}), 3);
+    const char *text = angle_text(panel, "", turn);
+    if (text) angle_arc(panel, foot, 13, side < 0 ? pi : 0, side * turn, text);
+}
+
 static void draw_slide(struct panel *panel)
 {
     struct vec e = panel_direction(vec_of(panel->pose.along)),
@@ -452,8 +467,7 @@ static void draw_pivot(struct panel *panel)
     struct vec G = vec_sub(panel_point(panel, panel_place(panel, panel->G)), axis);
     bool hangs = vec_norm(G) > 1;
     struct vec d = {0, hangs && G.y > -0.3 * vec_norm(G) ? -1 : 1};
-    if (on_ground(panel) && panel->drawing->supports)
-        panel_bearing(panel, axis, d.y);
+    if (on_ground(panel) && panel->drawing->supports) panel_bearing(panel, axis, d.y);
     /* theta is zero where the body's frame is parallel to that of its parent */
     double parent = panel->pose.angle - coordinate_of(panel, panel->body.coordinate);
     struct vec arm = vec_sub(panel->G, vec_of(panel->body.pin));

@@ -138,6 +138,12 @@ const char *panel_symbol(const struct panel *panel, const struct panel_arrow *ar
 void panel_arrows(struct panel *panel);
 void panel_write_arrows(const struct panel *panel, struct text *text);
 
+/* The arc of a moment with its head. */
+void panel_write_arc(struct text *text, const struct panel_arrow *arrow);
+
+/* The angle of a slope with the horizontal, at its low end on paper; `up` is a unit vector of the world. */
+void panel_slope(struct panel *panel, struct vec foot, struct vec up);
+
 /* Draw a line under the arrows, and extend the panel by it. */
 void panel_line(struct panel *panel, const char *css, struct vec from, struct vec to, double cost);
 

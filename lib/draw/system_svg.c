@@ -12,8 +12,8 @@
 #include "draw/panel.h"
 #include "fbd_view.h"
 
-static const double margin = 5, heading = 14, figure_size = 110, wall_distance = 26, force_length = 15,
-                    drum_radius = 4;
+static const double pi = 3.141592653589793, margin = 5, heading = 14, figure_size = 110, wall_distance = 26,
+                    force_length = 15, drum_radius = 4;
 
 struct figure {
     struct arena arena;
@@ -220,18 +220,58 @@ static void draw_spring(struct figure *figure, size_t index)
 /* ---- couplings */
 
 /* The ground under a rolling circle or a contact. */
-static void draw_line(struct figure *figure, const fbd_coupling *coupling, size_t index)
+struct strip {
+    bool there;
+    struct vec foot, e, n; /* below the body, along the ground and out of it, in the world */
+    double reach;          /* to each side, on paper */
+};
+
+static struct strip strip_of(const struct figure *figure, size_t index)
 {
+    const fbd_coupling coupling = fbd_view_coupling(figure->view, index);
+    if (!coupling.lined) return (struct strip){.there = false};
     const fbd_coupling_end end = fbd_view_coupling_end(figure->view, index, 0),
                            line = fbd_view_coupling_end(figure->view, index, 1);
-    if (line.body >= 0 || end.body < 0) return;
-    const struct vec e = vec_unit(coupling->angle), n = vec_scale(coupling->side, vec_perp(e));
-    const struct vec center = place(figure, end.body, vec_of(end.point));
+    if (line.body >= 0 || end.body < 0) return (struct strip){.there = false};
+    const struct vec e = vec_unit(coupling.angle), n = vec_scale(coupling.side, vec_perp(e)),
+                     center = place(figure, end.body, vec_of(end.point));
     const double high = vec_dot(n, vec_sub(center, vec_of(line.point)));
-    const struct vec foot = panel_point(figure->pen, vec_sub(center, vec_scale(high, n)));
-    const struct vec half = vec_scale(30, panel_direction(e));
-    panel_hatched_line(figure->pen, vec_sub(foot, half), vec_add(foot, half),
-                       vec_scale(-1, panel_direction(n)));
+    const struct vec foot = vec_sub(center, vec_scale(high, n)),
+                     touch = end.place_count > 0 ? vec_of(end.places[0]) : foot;
+    const double far = fmax(fabs(end.radius), fabs(vec_dot(e, vec_sub(touch, foot))));
+    return (struct strip){
+        .there = true, .foot = foot, .e = e, .n = n, .reach = fmax(30, far * figure->pen->millimetres + 20)};
+}
+
+/* True if both are on one side of one line. */
+static bool on_one_line(const struct figure *figure, const struct strip *a, const struct strip *b)
+{
+    const double off = vec_dot(a->n, vec_sub(b->foot, a->foot)) * figure->pen->millimetres;
+    return a->there && b->there && fabs(vec_cross(a->e, b->e)) < 1e-9 && vec_dot(a->n, b->n) > 0 &&
+           fabs(off) < 0.05;
+}
+
+/* Draw the ground under all bodies on one line, once. */
+static void draw_line(struct figure *figure, size_t index)
+{
+    struct panel *pen = figure->pen;
+    const struct strip strip = strip_of(figure, index);
+    double low = 0, high = 0;
+    for (size_t i = 0; i < fbd_view_coupling_count(figure->view); i++) {
+        const struct strip other = strip_of(figure, i);
+        if (!on_one_line(figure, &strip, &other)) continue;
+        if (i < index) return;
+        const double at = vec_dot(strip.e, vec_sub(other.foot, strip.foot)) * pen->millimetres;
+        low = fmin(low, at - other.reach);
+        high = fmax(high, at + other.reach);
+    }
+    if (!strip.there) return;
+    const struct vec foot = panel_point(pen, strip.foot), e = panel_direction(strip.e),
+                     from = vec_add(foot, vec_scale(low, e)), to = vec_add(foot, vec_scale(high, e));
+    panel_hatched_line(pen, from, to, vec_scale(-1, panel_direction(strip.n)));
+    if (fabs(strip.e.x * strip.e.y) < 1e-9) return;
+    const bool rises = strip.e.y > 0;
+    panel_slope(pen, rises ? from : to, rises ? strip.e : vec_scale(-1, strip.e));
 }
 
 /* A point of the ground that a rod, rope or belt ends at: a drum where the length of the rope changes. */
@@ -273,7 +313,7 @@ static void draw_coupling(struct figure *figure, size_t index)
 {
     const fbd_coupling coupling = fbd_view_coupling(figure->view, index);
     if (coupling.lined)
-        draw_line(figure, &coupling, index);
+        draw_line(figure, index);
     else if (strcmp(coupling.kind, "rod") == 0 || strcmp(coupling.kind, "rope") == 0)
         draw_links(figure, &coupling, index);
     else if (strcmp(coupling.kind, "pin") == 0) {
@@ -301,6 +341,34 @@ static void draw_force(struct figure *figure, const fbd_force *force, struct vec
     text_add(&pen->under, "</g>\n");
     box_take(&pen->extent, tip);
     panel_note(pen, panel_indexed(&figure->arena, force->symbol), tip, u);
+}
+
+/* A moment is an arc over the axis or the centre of mass. */
+static void draw_moment(struct figure *figure, const struct panel *panel, const fbd_force *force)
+{
+    enum { corners = 8 };
+    struct panel *pen = figure->pen;
+    const double couple = force->arrow.couple, radius = 9, below = 0.5, half = pi / 2 + below;
+    if (strcmp(force->kind, "applied") != 0 || !force->moment || !isfinite(couple) || couple == 0) return;
+    const bool pivot = panel->body.motion == FBD_MOTION_PIVOT;
+    const struct vec axis = panel_point(pen, panel_place(panel, pivot ? vec_of(panel->body.pin) : panel->G));
+    const struct panel_arrow arrow = {.tail = axis,
+                                      .radius = radius,
+                                      .start = pi / 2 - copysign(half, couple),
+                                      .sweep = copysign(2 * half, couple)};
+    text_add(&pen->under, "<g class=\"applied\">\n");
+    panel_write_arc(&pen->under, &arrow);
+    text_add(&pen->under, "</g>\n");
+    take_circle(&pen->extent, axis, radius);
+    struct vec last = axis;
+    for (int i = 0; i <= corners; i++) {
+        const struct vec u = panel_direction(vec_unit(arrow.start + arrow.sweep * i / corners)),
+                         next = vec_add(axis, vec_scale(radius, u));
+        if (i > 0) labelling_avoid(&pen->labels, last, next, 8);
+        last = next;
+    }
+    panel_note(pen, panel_indexed(&figure->arena, force->symbol), vec_sub(axis, (struct vec){0, radius}),
+               (struct vec){0, -1});
 }
 
 /* ---- the whole */
@@ -351,8 +419,10 @@ static void draw(struct figure *figure)
     for (size_t i = 0; i < fbd_view_coupling_count(figure->view); i++) draw_coupling(figure, i);
     draw_bodies(figure);
     for (size_t b = 0; b < figure->count; b++)
-        for (size_t i = 0; i < figure->panels[b].force_count; i++)
+        for (size_t i = 0; i < figure->panels[b].force_count; i++) {
             draw_force(figure, &figure->panels[b].forces[i], figure->panels[b].lift);
+            draw_moment(figure, &figure->panels[b], &figure->panels[b].forces[i]);
+        }
     labelling_solve(&figure->pen->labels);
     for (size_t i = 0; i < figure->pen->labels.label_count; i++) {
         const struct box box = labelling_box(&figure->pen->labels.labels[i]);

@@ -70,6 +70,15 @@ check 'is drawn whole' sh -c '[ "$(grep -o "class=\"ground\".* y2=\"-50\"" out |
 check 'a rope that a winch winds up' exits 0 draw "$models/couplings/winch.yaml" --system
 check 'has a drum' says 'circle class="body" [^>]*r="4"' out
 check 'and no wall' lacks 'class="hatch"' out
+check 'bodies on one ground' exits 0 draw "$models/contact/dominoes.yaml" --system
+check 'have it hatched once' sh -c '[ "$(grep -c "class=\"hatch\"" out)" -eq 1 ]'
+check 'a slope under a ball' exits 0 draw "$models/couplings/rolling_on_incline.yaml" --system
+check 'has its angle' says '>30°<' out
+check 'a truss' exits 0 draw "$models/statics/truss.yaml" --system
+check 'stands on a pin' says 'polygon class="support"' out
+check 'and a roller' says 'circle class="support"' out
+check 'an applied moment' exits 0 draw "$crank" --system
+check 'is an arc with its letter' sh -c 'grep -q "path class=\"shaft\"" out && grep -q ">drive<" out'
 check '--system is no body alone' exits 2 draw "$crank" --system --body piston
 
 all_drawn() { # the figure of every model, well formed
