@@ -6,8 +6,7 @@
 #include "draw/panel.h"
 #include "fbd_view.h"
 
-static const double pi = 3.141592653589793, body_size = 54, surface_half = 34, free_half = 20,
-                    hatch_step = 2.4;
+static const double pi = 3.141592653589793, surface_half = 34, free_half = 20, hatch_step = 2.4;
 
 static const double dot_radius = 1.6;
 
@@ -29,111 +28,9 @@ void panel_note(struct panel *panel, const char *string, struct vec anchor, stru
     labelling_add(&panel->labels, string, label_size, anchor, toward, 1);
 }
 
-/* ---- scale */
-
 static bool on_ground(const struct panel *panel)
 {
     return panel->body.carrier == FBD_GROUND;
-}
-
-/* True for the carrier of a body that slides along or across its own line: a block in the figure of the system,
- * not a wedge. */
-static bool carries_level(const struct panel *panel)
-{
-    if (!panel->joined || panel->plate.rider < 0) return false;
-    const struct vec e = vec_of(fbd_view_pose(panel->view, (size_t)panel->plate.rider).along),
-                     own = vec_of(panel->pose.along);
-    return fabs(vec_dot(e, own) * vec_cross(e, own)) < 1e-9;
-}
-
-/* Half width and half height of a block without a size, along and across its line, on paper; one that carries
- * another is wider along the line of that one. */
-static struct vec block_half(const struct panel *panel)
-{
-    const double wide = 2;
-    if (!carries_level(panel)) return panel->block;
-    const struct vec e = vec_of(fbd_view_pose(panel->view, (size_t)panel->plate.rider).along);
-    const bool along = fabs(vec_dot(e, vec_of(panel->pose.along))) > 0.5;
-    return along ? (struct vec){wide * panel->block.x, panel->block.y}
-                 : (struct vec){panel->block.y, wide * panel->block.x};
-}
-
-double panel_reach(const struct panel *panel, struct vec world)
-{
-    const struct vec e = {panel->pose.cosine, panel->pose.sine}, half = block_half(panel);
-    if (panel->shaped)
-        return shapes_reach(panel->model, panel->index, panel->G,
-                            (struct vec){vec_dot(world, e), vec_dot(world, vec_perp(e))});
-    return (fabs(vec_dot(world, vec_of(panel->pose.along))) * half.x +
-            fabs(vec_dot(world, vec_of(panel->pose.normal))) * half.y) /
-           panel->millimetres;
-}
-
-/* The corners of a wedge of conventional size: its slope is that of the body sliding on it, its base is on
- * its own surface. */
-static void wedge_corners(struct panel *panel, struct vec corners[static 4])
-{
-    const fbd_body rider = fbd_model_body(panel->model, (size_t)panel->plate.rider);
-    const double half = panel->block.x * 19 / 9, over = 6;
-    struct vec turn = {panel->pose.cosine, panel->pose.sine}, e = vec_turn(turn, vec_of(rider.along)),
-               n = vec_turn(turn, vec_of(rider.normal));
-    struct vec G = panel_point(panel, panel_place(panel, panel->G));
-    if (e.x < 0) e = vec_scale(-1, e);
-    panel->seat = vec_add(G, panel_direction(vec_scale(over, n)));
-    if (panel->joined) { /* under the sliding body, a block without a size */
-        const struct vec on =
-            vec_add(vec_of(fbd_view_pose(panel->view, (size_t)panel->plate.rider).G), panel->lift);
-        panel->seat = vec_sub(panel_point(panel, on), panel_direction(vec_scale(panel->block.y, n)));
-    }
-    struct vec way = panel_direction(vec_scale(half, e)), left = vec_sub(panel->seat, way),
-               right = vec_add(panel->seat, way);
-    double base = fmax(fmax(left.y, right.y), G.y + panel->block.y);
-    corners[0] = left;
-    corners[1] = right;
-    corners[2] = (struct vec){right.x, base};
-    corners[3] = (struct vec){left.x, base};
-}
-
-/* Set the base from the distance between the centre of mass and the surface. */
-static void set_base(struct panel *panel)
-{
-    struct vec G = panel->G, down = vec_scale(-1, vec_of(panel->pose.normal));
-    double reach = panel_reach(panel, down);
-    if (panel->plate.rider >= 0 && !carries_level(panel)) {
-        struct vec corners[4];
-        wedge_corners(panel, corners);
-        reach = (corners[2].y - panel_point(panel, panel_place(panel, G)).y) / panel->millimetres;
-    }
-    panel->base = vec_add(panel_place(panel, G), vec_scale(reach, down));
-}
-
-void panel_set_scale(struct panel *panel, double size, double largest)
-{
-    const double least = 8; /* mm on paper */
-    double scale = largest > 0 ? 10 / round_up(10 * largest / body_size) : 1;
-    panel->block = conventional_block;
-    panel->enlarged = size > 1e-9 * largest && size * scale < least;
-    panel->sized = size > 1e-9 * largest;
-    panel->millimetres = panel->enlarged ? 10 / round_up(10 * size / (body_size / 3)) : scale;
-    if (panel->body.motion == FBD_MOTION_SLIDE) set_base(panel);
-}
-
-void panel_join(struct panel *panel, struct vec middle, double millimetres, double share)
-{
-    panel->joined = true;
-    panel->sized = true;
-    panel->middle = middle;
-    panel->millimetres = millimetres;
-    panel->block = vec_scale(share, conventional_block);
-    if (panel->body.motion == FBD_MOTION_SLIDE) set_base(panel);
-}
-
-void panel_lift(struct panel *panel, struct vec lift)
-{
-    panel->lift = lift;
-    panel->pose.x += lift.x;
-    panel->pose.y += lift.y;
-    if (panel->body.motion == FBD_MOTION_SLIDE) set_base(panel);
 }
 
 /* ---- the body */
@@ -243,9 +140,9 @@ static void draw_sizeless(struct panel *panel)
         draw_plate(panel);
         return;
     }
-    if (panel->plate.rider >= 0 && !carries_level(panel)) {
+    if (panel->plate.rider >= 0 && !panel_carries_level(panel)) {
         struct vec corners[4];
-        wedge_corners(panel, corners);
+        panel_wedge(panel, corners);
         edge(panel, corners, 4);
         return;
     }
@@ -262,7 +159,7 @@ static void draw_sizeless(struct panel *panel)
         svg_circle(&panel->under, "hole", G, 1.1);
         return;
     }
-    const struct vec half = block_half(panel);
+    const struct vec half = panel_block(panel);
     struct vec along = vec_scale(half.x, panel_direction(vec_of(panel->pose.along))),
                up = vec_scale(half.y, panel_direction(vec_of(panel->pose.normal)));
     struct vec corners[] = {vec_add(G, vec_add(along, up)), vec_add(G, vec_sub(up, along)),

@@ -118,6 +118,18 @@ void panel_lift(struct panel *panel, struct vec lift);
  * else of a block of conventional size. */
 double panel_reach(const struct panel *panel, struct vec world);
 
+/* True for the carrier of a body that slides along or across its own line: a block in the figure of the system,
+ * not a wedge. */
+bool panel_carries_level(const struct panel *panel);
+
+/* Half width and half height of a block without a size, along and across its line, on paper; one that carries
+ * another is wider along the line of that one. */
+struct vec panel_block(const struct panel *panel);
+
+/* The corners of a wedge of conventional size: its slope is that of the body sliding on it, its base is on
+ * its own surface. Sets `seat`. */
+void panel_wedge(struct panel *panel, struct vec corners[static 4]);
+
 /* A line with hatching on the side `into`, a unit vector on paper. */
 void panel_hatched_line(struct panel *panel, struct vec from, struct vec to, struct vec into);
 

@@ -21,7 +21,7 @@ struct figure {
     fbd_view *view;
     struct panel *panels;
     size_t count;
-    struct panel *pen; /* of what is drawn between the bodies */
+    struct panel *pen; /* of the lines between the bodies */
 };
 
 /* A point of a body, or of the ground, in the world. */
