@@ -279,11 +279,9 @@ static void draw_anchor(struct figure *figure, const fbd_coupling *coupling, str
 {
     struct panel *pen = figure->pen;
     if (strcmp(coupling->kind, "rope") == 0 && coupling->length == 0) {
-        const struct vec reach = {drum_radius, drum_radius};
         svg_circle(&pen->under, "body", at, drum_radius);
         svg_circle(&pen->under, "hole", at, 0.8);
-        box_take(&pen->extent, vec_sub(at, reach));
-        box_take(&pen->extent, vec_add(at, reach));
+        take_circle(&pen->extent, at, drum_radius);
     } else if (strcmp(coupling->kind, "rod") == 0) {
         panel_bearing(pen, at, 1);
         svg_circle(&pen->under, "hole", at, 1.1);
@@ -301,8 +299,11 @@ static void draw_links(struct figure *figure, const fbd_coupling *coupling, size
         struct vec center = on_paper(figure, end.body, end.point), first = center, leaves = center;
         if (end.place_count > 0) first = leaves = at_place(figure, end.body, end.places[0]);
         if (end.place_count > 1) leaves = at_place(figure, end.body, end.places[1]);
-        if (end.radius > 0 && end.body < 0)
-            svg_circle(&figure->pen->under, "body", center, end.radius * figure->pen->millimetres);
+        if (end.radius > 0 && end.body < 0) {
+            const double radius = end.radius * figure->pen->millimetres;
+            svg_circle(&figure->pen->under, "body", center, radius);
+            take_circle(&figure->pen->extent, center, radius);
+        }
         if (k > 0) panel_line(figure->pen, "thread", last, first, 4);
         if (end.body < 0 && !(end.radius > 0)) draw_anchor(figure, coupling, center);
         last = leaves;
