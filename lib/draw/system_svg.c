@@ -319,7 +319,9 @@ static void draw_coupling(struct figure *figure, size_t index)
         draw_links(figure, &coupling, index);
     else if (strcmp(coupling.kind, "pin") == 0) {
         const fbd_coupling_end end = fbd_view_coupling_end(figure->view, index, 0);
-        svg_circle(&figure->pen->under, "hole", on_paper(figure, end.body, end.point), 1.1);
+        const struct vec at = on_paper(figure, end.body, end.point);
+        if (fbd_view_coupling_end(figure->view, index, 1).body < 0) panel_bearing(figure->pen, at, 1);
+        svg_circle(&figure->pen->under, "hole", at, 1.1);
     }
 }
 
