@@ -325,7 +325,7 @@ static void write_force(struct text *text, const struct panel_arrow *arrow)
     write_head(text, arrow->head, unit);
 }
 
-static void write_moment(struct text *text, const struct panel_arrow *arrow)
+void panel_write_arc(struct text *text, const struct panel_arrow *arrow)
 {
     double bow = head_length * 0.8 / arrow->radius; /* length of the head as an angle */
     double shaft = 1 - bow / fabs(arrow->sweep);
@@ -374,7 +374,7 @@ void panel_write_arrows(const struct panel *panel, struct text *text)
                     arrow->source->arrow.name, arrow->suffix);
         write_title(panel, arrow, text);
         if (arrow->radius > 0)
-            write_moment(text, arrow);
+            panel_write_arc(text, arrow);
         else
             write_force(text, arrow);
         if (label->leader) svg_line(text, "leader", label->anchor, labelling_leader(label));

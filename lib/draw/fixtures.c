@@ -6,11 +6,9 @@
 #include "draw/panel.h"
 #include "fbd_view.h"
 
-static const double pi = 3.141592653589793, body_size = 54, surface_half = 34, free_half = 20,
-                    hatch_step = 2.4;
+static const double pi = 3.141592653589793, surface_half = 34, free_half = 20, hatch_step = 2.4;
 
-/* Block for a slide without a size in the file: half width and half height on paper. */
-static const double block_half_width = 9, block_half_height = 6.5, dot_radius = 1.6;
+static const double dot_radius = 1.6;
 
 struct vec panel_point(const struct panel *panel, struct vec world)
 {
@@ -30,69 +28,9 @@ void panel_note(struct panel *panel, const char *string, struct vec anchor, stru
     labelling_add(&panel->labels, string, label_size, anchor, toward, 1);
 }
 
-/* ---- scale */
-
 static bool on_ground(const struct panel *panel)
 {
     return panel->body.carrier == FBD_GROUND;
-}
-
-/* The corners of a wedge of conventional size: its slope is that of the body sliding on it, its base is on
- * its own surface. */
-static void wedge_corners(struct panel *panel, struct vec corners[static 4])
-{
-    const fbd_body rider = fbd_model_body(panel->model, (size_t)panel->plate.rider);
-    const double half = 19, over = 6;
-    struct vec turn = {panel->pose.cosine, panel->pose.sine}, e = vec_turn(turn, vec_of(rider.along)),
-               n = vec_turn(turn, vec_of(rider.normal));
-    struct vec G = panel_point(panel, panel_place(panel, panel->G));
-    if (e.x < 0) e = vec_scale(-1, e);
-    panel->seat = vec_add(G, panel_direction(vec_scale(over, n)));
-    if (panel->joined) { /* under the sliding body, a block without a size */
-        const struct vec on = vec_of(fbd_view_pose(panel->view, (size_t)panel->plate.rider).G);
-        panel->seat = vec_sub(panel_point(panel, on), panel_direction(vec_scale(block_half_height, n)));
-    }
-    struct vec way = panel_direction(vec_scale(half, e)), left = vec_sub(panel->seat, way),
-               right = vec_add(panel->seat, way);
-    double base = fmax(fmax(left.y, right.y), G.y + block_half_height);
-    corners[0] = left;
-    corners[1] = right;
-    corners[2] = (struct vec){right.x, base};
-    corners[3] = (struct vec){left.x, base};
-}
-
-/* Set the base from the distance between the centre of mass and the surface. */
-static void set_base(struct panel *panel)
-{
-    struct vec G = panel->G, e = vec_of(panel->pose.along), down = vec_scale(-1, vec_of(panel->pose.normal));
-    struct vec in_body = {vec_dot(down, e), vec_dot(down, vec_perp(e))};
-    double reach = panel->shaped ? shapes_reach(panel->model, panel->index, G, in_body)
-                                 : block_half_height / panel->millimetres;
-    if (panel->plate.rider >= 0) {
-        struct vec corners[4];
-        wedge_corners(panel, corners);
-        reach = (corners[2].y - panel_point(panel, panel_place(panel, G)).y) / panel->millimetres;
-    }
-    panel->base = vec_add(panel_place(panel, G), vec_scale(reach, down));
-}
-
-void panel_set_scale(struct panel *panel, double size, double largest)
-{
-    const double least = 8; /* mm on paper */
-    double scale = largest > 0 ? 10 / round_up(10 * largest / body_size) : 1;
-    panel->enlarged = size > 1e-9 * largest && size * scale < least;
-    panel->sized = size > 1e-9 * largest;
-    panel->millimetres = panel->enlarged ? 10 / round_up(10 * size / (body_size / 3)) : scale;
-    if (panel->body.motion == FBD_MOTION_SLIDE) set_base(panel);
-}
-
-void panel_join(struct panel *panel, struct vec middle, double millimetres)
-{
-    panel->joined = true;
-    panel->sized = true;
-    panel->middle = middle;
-    panel->millimetres = millimetres;
-    if (panel->body.motion == FBD_MOTION_SLIDE) set_base(panel);
 }
 
 /* ---- the body */
@@ -202,9 +140,9 @@ static void draw_sizeless(struct panel *panel)
         draw_plate(panel);
         return;
     }
-    if (panel->plate.rider >= 0) {
+    if (panel->plate.rider >= 0 && !panel_carries_level(panel)) {
         struct vec corners[4];
-        wedge_corners(panel, corners);
+        panel_wedge(panel, corners);
         edge(panel, corners, 4);
         return;
     }
@@ -214,8 +152,16 @@ static void draw_sizeless(struct panel *panel)
         svg_circle(&panel->under, point ? "mass" : "body", G, point ? dot_radius : 8);
         return;
     }
-    struct vec along = vec_scale(block_half_width, panel_direction(vec_of(panel->pose.along))),
-               up = vec_scale(block_half_height, panel_direction(vec_of(panel->pose.normal)));
+    if (panel->joined && panel->plate.rods > 1) { /* the end of a truss, on a roller */
+        const double r = panel->block.y / 2;
+        const struct vec n = panel_direction(vec_of(panel->pose.normal));
+        svg_circle(&panel->under, "support", vec_sub(G, vec_scale(r, n)), r);
+        svg_circle(&panel->under, "hole", G, 1.1);
+        return;
+    }
+    const struct vec half = panel_block(panel);
+    struct vec along = vec_scale(half.x, panel_direction(vec_of(panel->pose.along))),
+               up = vec_scale(half.y, panel_direction(vec_of(panel->pose.normal)));
     struct vec corners[] = {vec_add(G, vec_add(along, up)), vec_add(G, vec_sub(up, along)),
                             vec_sub(G, vec_add(along, up)), vec_add(G, vec_sub(along, up))};
     edge(panel, corners, 4);
@@ -340,6 +286,14 @@ static const char *angle_text(struct panel *panel, const char *name, double angl
                              : arena_printf(panel->arena, "%s%s%.4g rad", name, minus, fabs(angle));
 }
 
+void panel_slope(struct panel *panel, struct vec foot, struct vec up)
+{
+    const double side = up.x < 0 ? -1 : 1, turn = atan2(up.y, fabs(up.x));
+    panel_line(panel, "reference", foot, vec_add(foot, (struct vec){18 * side, 0}), 3);
+    const char *text = angle_text(panel, "", turn);
+    if (text) angle_arc(panel, foot, 13, side < 0 ? pi : 0, side * turn, text);
+}
+
 static void draw_slide(struct panel *panel)
 {
     struct vec e = panel_direction(vec_of(panel->pose.along)),
@@ -395,19 +349,22 @@ static void draw_angle(struct panel *panel, struct vec center, double zero, doub
                   zero, turn, text);
 }
 
-/* Draw a bearing: a triangle on hatched ground, on the side away from the body. */
+void panel_bearing(struct panel *panel, struct vec axis, double down)
+{
+    const struct vec d = {0, down}, foot = vec_add(axis, vec_scale(6, d)), side = {3.6, 0}, wide = {7, 0};
+    const struct vec corners[] = {axis, vec_add(foot, side), vec_sub(foot, side)};
+    svg_polygon(&panel->under, "support", corners, 3);
+    panel_hatched_line(panel, vec_sub(foot, wide), vec_add(foot, wide), d);
+}
+
+/* Draw a bearing on the side away from the body. */
 static void draw_pivot(struct panel *panel)
 {
     struct vec axis = panel_point(panel, panel_place(panel, vec_of(panel->body.pin)));
     struct vec G = vec_sub(panel_point(panel, panel_place(panel, panel->G)), axis);
     bool hangs = vec_norm(G) > 1;
     struct vec d = {0, hangs && G.y > -0.3 * vec_norm(G) ? -1 : 1};
-    if (on_ground(panel) && panel->drawing->supports) {
-        struct vec foot = vec_add(axis, vec_scale(6, d)), side = {3.6, 0}, wide = {7, 0};
-        struct vec corners[] = {axis, vec_add(foot, side), vec_sub(foot, side)};
-        svg_polygon(&panel->under, "support", corners, 3);
-        panel_hatched_line(panel, vec_sub(foot, wide), vec_add(foot, wide), d);
-    }
+    if (on_ground(panel) && panel->drawing->supports) panel_bearing(panel, axis, d.y);
     /* theta is zero where the body's frame is parallel to that of its parent */
     double parent = panel->pose.angle - coordinate_of(panel, panel->body.coordinate);
     struct vec arm = vec_sub(panel->G, vec_of(panel->body.pin));
@@ -431,7 +388,7 @@ bool panel_fixtures_in_front(const struct panel *panel)
 /* Draw the curve near the body; for a body without a size at a separate scale. */
 static void draw_track(struct panel *panel)
 {
-    enum { segments = 40 };
+    const int segments = panel->joined ? 120 : 40;
     const double half = 2 * (panel->drawing->supports ? surface_half : free_half);
     const fbd_track track = fbd_model_track(panel->model, panel->index);
     const double here = coordinate_of(panel, panel->body.coordinate);
@@ -439,6 +396,7 @@ static void draw_track(struct panel *panel)
     double scale =
         panel->sized ? panel->millimetres : fmax(12 * fabs(now.curvature), 6 * half / track.length);
     double first = here - half / scale, last = here + half / scale;
+    if (panel->joined) first = track.start, last = track.start + track.length;
     if (!track.closed) first = fmax(first, track.start), last = fmin(last, track.start + track.length);
     struct vec e = vec_of(panel->pose.along), tangent = vec_of(now.tangent);
     struct vec frame = {vec_dot(tangent, e), vec_cross(tangent, e)}; /* rotation of the curve */

@@ -15,6 +15,9 @@
 /* Sizes on paper [mm]. */
 static const double label_size = 3.4, note_size = 2.9, longest_arrow = 40, shortest_arrow = 5;
 
+/* Block for a slide without a size in the file: half width and half height on paper [mm]. */
+static const struct vec conventional_block = {9, 6.5};
+
 /* Costs of a label on a line [mm]: the line of a body or an arrow is worth a far place with a leader. */
 static const double on_outline = 60, on_arrow = 60;
 
@@ -61,6 +64,8 @@ struct panel {
     bool shaped;        /* by its shape in the file */
     bool joined;        /* part of the figure of the system, in which all bodies have one origin and scale */
     bool enlarged;      /* drawn to a larger scale than the other bodies of the sheet */
+    struct vec block;   /* half width and half height on paper if it is drawn as a block without a size */
+    struct vec lift;    /* in the figure: of the body from its place in the scene, in the world */
     struct vec base;    /* slide: point of contact with its surface, in the world */
     struct vec seat;    /* wedge: middle of the surface of the body on it, on paper */
 
@@ -102,11 +107,34 @@ double panel_measure(struct panel *panel);
  * is drawn larger. */
 void panel_set_scale(struct panel *panel, double size, double largest);
 
-/* Set the origin and the scale of the figure of the system, in which the bodies stay joined. */
-void panel_join(struct panel *panel, struct vec middle, double millimetres);
+/* Set the origin and the scale of the figure of the system, in which the bodies stay joined, and the share of the
+ * conventional size that blocks without a size have. */
+void panel_join(struct panel *panel, struct vec middle, double millimetres, double share);
+
+/* Move the body in the figure, so that it stands on top of another one. */
+void panel_lift(struct panel *panel, struct vec lift);
+
+/* The largest extent of a slide from its centre of mass in a direction of the world, a unit vector: of its shape,
+ * else of a block of conventional size. */
+double panel_reach(const struct panel *panel, struct vec world);
+
+/* True for the carrier of a body that slides along or across its own line: a block in the figure of the system,
+ * not a wedge. */
+bool panel_carries_level(const struct panel *panel);
+
+/* Half width and half height of a block without a size, along and across its line, on paper; one that carries
+ * another is wider along the line of that one. */
+struct vec panel_block(const struct panel *panel);
+
+/* The corners of a wedge of conventional size: its slope is that of the body sliding on it, its base is on
+ * its own surface. Sets `seat`. */
+void panel_wedge(struct panel *panel, struct vec corners[static 4]);
 
 /* A line with hatching on the side `into`, a unit vector on paper. */
 void panel_hatched_line(struct panel *panel, struct vec from, struct vec to, struct vec into);
+
+/* A bearing: a triangle on hatched ground, below the axis (`down` is 1) or above it (-1). */
+void panel_bearing(struct panel *panel, struct vec axis, double down);
 
 /* Draw the body and its centre of mass. */
 void panel_body(struct panel *panel);
@@ -121,6 +149,12 @@ const char *panel_symbol(const struct panel *panel, const struct panel_arrow *ar
 /* Place the arrows; after labelling_solve write them with their labels. */
 void panel_arrows(struct panel *panel);
 void panel_write_arrows(const struct panel *panel, struct text *text);
+
+/* The arc of a moment with its head. */
+void panel_write_arc(struct text *text, const struct panel_arrow *arrow);
+
+/* The angle of a slope with the horizontal, at its low end on paper; `up` is a unit vector of the world. */
+void panel_slope(struct panel *panel, struct vec foot, struct vec up);
 
 /* Draw a line under the arrows, and extend the panel by it. */
 void panel_line(struct panel *panel, const char *css, struct vec from, struct vec to, double cost);

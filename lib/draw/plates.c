@@ -28,6 +28,7 @@ static void add_couplings(struct plate *plate, const fbd_view *view, const fbd_b
         for (size_t k = 0; k < fbd_view_coupling(view, i).end_count; k++) {
             const fbd_coupling_end end = fbd_view_coupling_end(view, i, k);
             if (end.body != b) continue;
+            if (strcmp(fbd_view_coupling(view, i).kind, "rod") == 0) plate->rods++;
             if (end.radius > plate->wheel) plate->wheel = end.radius, plate->hub = vec_of(end.point);
             if (!(end.radius > 0)) add_point(plate, vec_of(end.point));
             if (strcmp(fbd_view_coupling(view, i).kind, "slot") == 0 && end.place_count > 0)

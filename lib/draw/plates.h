@@ -15,6 +15,7 @@ struct plate {
     size_t count;
     double wheel; /* radius of the gear around `hub`; 0 if it is none */
     struct vec hub;
+    int rods;  /* that end at the body */
     int rider; /* the body that slides on this slide; else -1 */
 };
 

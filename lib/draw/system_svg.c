@@ -12,7 +12,8 @@
 #include "draw/panel.h"
 #include "fbd_view.h"
 
-static const double margin = 5, heading = 14, figure_size = 110, wall_distance = 26, force_length = 15;
+static const double pi = 3.141592653589793, margin = 5, heading = 14, figure_size = 110, wall_distance = 26,
+                    force_length = 15, drum_radius = 4;
 
 struct figure {
     struct arena arena;
@@ -20,7 +21,7 @@ struct figure {
     fbd_view *view;
     struct panel *panels;
     size_t count;
-    struct panel *pen; /* of the drawings between the bodies */
+    struct panel *pen; /* of the lines between the bodies */
 };
 
 /* A point of a body, or of the ground, in the world. */
@@ -32,6 +33,13 @@ static struct vec place(const struct figure *figure, int body, struct vec point)
 static struct vec on_paper(const struct figure *figure, int body, const double point[2])
 {
     return panel_point(figure->pen, place(figure, body, vec_of(point)));
+}
+
+/* A place of the scene where something acts on a body. */
+static struct vec at_place(const struct figure *figure, int body, const double world[2])
+{
+    const struct vec lift = body < 0 ? (struct vec){0, 0} : figure->panels[body].lift;
+    return panel_point(figure->pen, vec_add(vec_of(world), lift));
 }
 
 /* ---- size */
@@ -54,10 +62,26 @@ static void take_body(const struct figure *figure, size_t b, struct box *box)
     for (int i = 0; i < 4; i++) box_take(box, panel_place(panel, corners[i]));
 }
 
+/* The whole curve that a body moves along. */
+static void take_track(const struct figure *figure, size_t b, struct box *box)
+{
+    enum { pieces = 40 };
+    if (figure->panels[b].body.motion != FBD_MOTION_TRACK) return;
+    const fbd_track track = fbd_model_track(figure->model, b);
+    for (int i = 0; i <= pieces; i++) {
+        const double s = track.start + track.length * i / pieces;
+        const fbd_track_place at = fbd_model_track_place(figure->model, b, s);
+        box_take(box, place(figure, figure->panels[b].body.carrier, (struct vec){at.x, at.y}));
+    }
+}
+
 static struct box extent_of(const struct figure *figure)
 {
     struct box box = box_nothing;
-    for (size_t b = 0; b < figure->count; b++) take_body(figure, b, &box);
+    for (size_t b = 0; b < figure->count; b++) {
+        take_body(figure, b, &box);
+        take_track(figure, b, &box);
+    }
     for (size_t i = 0; i < fbd_view_spring_count(figure->view); i++) {
         const fbd_spring spring = fbd_view_spring(figure->view, i);
         box_take(&box, place(figure, spring.body, vec_of(spring.point)));
@@ -72,6 +96,63 @@ static struct box extent_of(const struct figure *figure)
         }
     }
     return box;
+}
+
+/* ---- blocks of conventional size */
+
+static bool carries(const struct figure *figure, int carrier, int body)
+{
+    while (body >= 0 && body != carrier) body = figure->panels[body].body.carrier;
+    return body >= 0;
+}
+
+static bool is_sizeless(const struct panel *panel)
+{
+    return panel->body.motion == FBD_MOTION_SLIDE && !panel->shaped;
+}
+
+/* The share of their conventional size that blocks have, so that those beside each other do not overlap: their
+ * width is at most `apart` of the distance. Bodies at one place would overlap at any size. */
+static double share_of(const struct figure *figure, double millimetres)
+{
+    const double apart = 0.8, least = 0.15, width = 2 * conventional_block.x;
+    double share = 1;
+    for (size_t a = 0; a < figure->count; a++)
+        for (size_t b = 0; b < a; b++) {
+            const struct panel *one = &figure->panels[a], *other = &figure->panels[b];
+            if (!is_sizeless(one) || !is_sizeless(other) || carries(figure, (int)a, (int)b) ||
+                carries(figure, (int)b, (int)a))
+                continue;
+            const double distance =
+                millimetres * vec_norm(vec_sub(vec_of(one->pose.G), vec_of(other->pose.G)));
+            if (distance > 1e-6) share = fmin(share, apart * distance / width);
+        }
+    return fmax(share, least);
+}
+
+/* How far a body is moved from its place in the scene: one that slides on a surface of a sliding body stands on
+ * top of it, and carries along those on it. */
+static struct vec lift_of(const struct figure *figure, size_t body)
+{
+    const struct panel *panel = &figure->panels[body];
+    if (panel->body.carrier < 0) return (struct vec){0, 0};
+    const struct panel *under = &figure->panels[panel->body.carrier];
+    const struct vec lift = lift_of(figure, (size_t)panel->body.carrier);
+    const struct vec n = vec_of(panel->pose.normal), e = vec_of(under->pose.along);
+    const bool stands = panel->body.motion == FBD_MOTION_SLIDE && panel->body.surface &&
+                        !panel->body.two_sided && under->body.motion == FBD_MOTION_SLIDE;
+    if (!stands || fabs(vec_dot(n, e) * vec_cross(n, e)) > 1e-9) return lift; /* on a slope: a wedge */
+    const double high = vec_dot(n, vec_sub(vec_of(panel->pose.G), vec_of(under->pose.G)));
+    const double least = panel_reach(panel, vec_scale(-1, n)) + panel_reach(under, n);
+    return vec_add(lift, vec_scale(fmax(0, least - high), n));
+}
+
+static bool stack(struct figure *figure)
+{
+    struct vec *lift = ARENA_ARRAY(&figure->arena, figure->count, struct vec);
+    for (size_t b = 0; lift && b < figure->count; b++) lift[b] = lift_of(figure, b);
+    for (size_t b = 0; lift && b < figure->count; b++) panel_lift(&figure->panels[b], lift[b]);
+    return lift != NULL;
 }
 
 /* ---- springs and dampers */
@@ -139,18 +220,74 @@ static void draw_spring(struct figure *figure, size_t index)
 /* ---- couplings */
 
 /* The ground under a rolling circle or a contact. */
-static void draw_line(struct figure *figure, const fbd_coupling *coupling, size_t index)
+struct strip {
+    bool there;
+    struct vec foot, e, n; /* below the body, along the ground and out of it, in the world */
+    double reach;          /* to each side, on paper */
+};
+
+static struct strip strip_of(const struct figure *figure, size_t index)
 {
+    const fbd_coupling coupling = fbd_view_coupling(figure->view, index);
+    if (!coupling.lined) return (struct strip){.there = false};
     const fbd_coupling_end end = fbd_view_coupling_end(figure->view, index, 0),
                            line = fbd_view_coupling_end(figure->view, index, 1);
-    if (line.body >= 0 || end.body < 0) return;
-    const struct vec e = vec_unit(coupling->angle), n = vec_scale(coupling->side, vec_perp(e));
-    const struct vec center = place(figure, end.body, vec_of(end.point));
+    if (line.body >= 0 || end.body < 0) return (struct strip){.there = false};
+    const struct vec e = vec_unit(coupling.angle), n = vec_scale(coupling.side, vec_perp(e)),
+                     center = place(figure, end.body, vec_of(end.point));
     const double high = vec_dot(n, vec_sub(center, vec_of(line.point)));
-    const struct vec foot = panel_point(figure->pen, vec_sub(center, vec_scale(high, n)));
-    const struct vec half = vec_scale(30, panel_direction(e));
-    panel_hatched_line(figure->pen, vec_sub(foot, half), vec_add(foot, half),
-                       vec_scale(-1, panel_direction(n)));
+    const struct vec foot = vec_sub(center, vec_scale(high, n)),
+                     touch = end.place_count > 0 ? vec_of(end.places[0]) : foot;
+    const double far = fmax(fabs(end.radius), fabs(vec_dot(e, vec_sub(touch, foot))));
+    return (struct strip){
+        .there = true, .foot = foot, .e = e, .n = n, .reach = fmax(30, far * figure->pen->millimetres + 20)};
+}
+
+/* True if both are on one side of one line. */
+static bool on_one_line(const struct figure *figure, const struct strip *a, const struct strip *b)
+{
+    const double off = vec_dot(a->n, vec_sub(b->foot, a->foot)) * figure->pen->millimetres;
+    return a->there && b->there && fabs(vec_cross(a->e, b->e)) < 1e-9 && vec_dot(a->n, b->n) > 0 &&
+           fabs(off) < 0.05;
+}
+
+/* Draw the ground under all bodies on one line, once. */
+static void draw_line(struct figure *figure, size_t index)
+{
+    struct panel *pen = figure->pen;
+    const struct strip strip = strip_of(figure, index);
+    double low = 0, high = 0;
+    for (size_t i = 0; i < fbd_view_coupling_count(figure->view); i++) {
+        const struct strip other = strip_of(figure, i);
+        if (!on_one_line(figure, &strip, &other)) continue;
+        if (i < index) return;
+        const double at = vec_dot(strip.e, vec_sub(other.foot, strip.foot)) * pen->millimetres;
+        low = fmin(low, at - other.reach);
+        high = fmax(high, at + other.reach);
+    }
+    if (!strip.there) return;
+    const struct vec foot = panel_point(pen, strip.foot), e = panel_direction(strip.e),
+                     from = vec_add(foot, vec_scale(low, e)), to = vec_add(foot, vec_scale(high, e));
+    panel_hatched_line(pen, from, to, vec_scale(-1, panel_direction(strip.n)));
+    if (fabs(strip.e.x * strip.e.y) < 1e-9) return;
+    const bool rises = strip.e.y > 0;
+    panel_slope(pen, rises ? from : to, rises ? strip.e : vec_scale(-1, strip.e));
+}
+
+/* A point of the ground that a rod, rope or belt ends at: a drum where the length of the rope changes. */
+static void draw_anchor(struct figure *figure, const fbd_coupling *coupling, struct vec at)
+{
+    struct panel *pen = figure->pen;
+    if (strcmp(coupling->kind, "rope") == 0 && coupling->length == 0) {
+        svg_circle(&pen->under, "body", at, drum_radius);
+        svg_circle(&pen->under, "hole", at, 0.8);
+        take_circle(&pen->extent, at, drum_radius);
+    } else if (strcmp(coupling->kind, "rod") == 0) {
+        panel_bearing(pen, at, 1);
+        svg_circle(&pen->under, "hole", at, 1.1);
+    } else {
+        wall(pen, at, (struct vec){0, -1});
+    }
 }
 
 /* A rod, rope or belt: lines between the places where it acts. */
@@ -160,12 +297,15 @@ static void draw_links(struct figure *figure, const fbd_coupling *coupling, size
     for (size_t k = 0; k < coupling->end_count; k++) {
         const fbd_coupling_end end = fbd_view_coupling_end(figure->view, index, k);
         struct vec center = on_paper(figure, end.body, end.point), first = center, leaves = center;
-        if (end.place_count > 0) first = leaves = panel_point(figure->pen, vec_of(end.places[0]));
-        if (end.place_count > 1) leaves = panel_point(figure->pen, vec_of(end.places[1]));
-        if (end.radius > 0 && end.body < 0)
-            svg_circle(&figure->pen->under, "body", center, end.radius * figure->pen->millimetres);
+        if (end.place_count > 0) first = leaves = at_place(figure, end.body, end.places[0]);
+        if (end.place_count > 1) leaves = at_place(figure, end.body, end.places[1]);
+        if (end.radius > 0 && end.body < 0) {
+            const double radius = end.radius * figure->pen->millimetres;
+            svg_circle(&figure->pen->under, "body", center, radius);
+            take_circle(&figure->pen->extent, center, radius);
+        }
         if (k > 0) panel_line(figure->pen, "thread", last, first, 4);
-        if (end.body < 0 && !(end.radius > 0)) wall(figure->pen, center, (struct vec){0, -1});
+        if (end.body < 0 && !(end.radius > 0)) draw_anchor(figure, coupling, center);
         last = leaves;
     }
 }
@@ -174,25 +314,27 @@ static void draw_coupling(struct figure *figure, size_t index)
 {
     const fbd_coupling coupling = fbd_view_coupling(figure->view, index);
     if (coupling.lined)
-        draw_line(figure, &coupling, index);
+        draw_line(figure, index);
     else if (strcmp(coupling.kind, "rod") == 0 || strcmp(coupling.kind, "rope") == 0)
         draw_links(figure, &coupling, index);
     else if (strcmp(coupling.kind, "pin") == 0) {
         const fbd_coupling_end end = fbd_view_coupling_end(figure->view, index, 0);
-        svg_circle(&figure->pen->under, "hole", on_paper(figure, end.body, end.point), 1.1);
+        const struct vec at = on_paper(figure, end.body, end.point);
+        if (fbd_view_coupling_end(figure->view, index, 1).body < 0) panel_bearing(figure->pen, at, 1);
+        svg_circle(&figure->pen->under, "hole", at, 1.1);
     }
 }
 
 /* ---- applied forces */
 
-static void draw_force(struct figure *figure, const fbd_force *force)
+static void draw_force(struct figure *figure, const fbd_force *force, struct vec lift)
 {
     struct panel *pen = figure->pen;
     const struct vec f = {force->arrow.fx, -force->arrow.fy};
     const double size = vec_norm(f);
     if (strcmp(force->kind, "applied") != 0 || !(size > 0)) return;
     const struct vec u = vec_scale(1 / size, f),
-                     tail = panel_point(pen, (struct vec){force->arrow.x, force->arrow.y}),
+                     tail = panel_point(pen, vec_add((struct vec){force->arrow.x, force->arrow.y}, lift)),
                      tip = vec_add(tail, vec_scale(force_length, u)), back = vec_sub(tip, vec_scale(2.4, u)),
                      side = vec_scale(1, vec_perp(u)),
                      head[] = {tip, vec_add(back, side), vec_sub(back, side)};
@@ -202,6 +344,34 @@ static void draw_force(struct figure *figure, const fbd_force *force)
     text_add(&pen->under, "</g>\n");
     box_take(&pen->extent, tip);
     panel_note(pen, panel_indexed(&figure->arena, force->symbol), tip, u);
+}
+
+/* A moment is an arc over the axis or the centre of mass. */
+static void draw_moment(struct figure *figure, const struct panel *panel, const fbd_force *force)
+{
+    enum { corners = 8 };
+    struct panel *pen = figure->pen;
+    const double couple = force->arrow.couple, radius = 9, below = 0.5, half = pi / 2 + below;
+    if (strcmp(force->kind, "applied") != 0 || !force->moment || !isfinite(couple) || couple == 0) return;
+    const bool pivot = panel->body.motion == FBD_MOTION_PIVOT;
+    const struct vec axis = panel_point(pen, panel_place(panel, pivot ? vec_of(panel->body.pin) : panel->G));
+    const struct panel_arrow arrow = {.tail = axis,
+                                      .radius = radius,
+                                      .start = pi / 2 - copysign(half, couple),
+                                      .sweep = copysign(2 * half, couple)};
+    text_add(&pen->under, "<g class=\"applied\">\n");
+    panel_write_arc(&pen->under, &arrow);
+    text_add(&pen->under, "</g>\n");
+    take_circle(&pen->extent, axis, radius);
+    struct vec last = axis;
+    for (int i = 0; i <= corners; i++) {
+        const struct vec u = panel_direction(vec_unit(arrow.start + arrow.sweep * i / corners)),
+                         next = vec_add(axis, vec_scale(radius, u));
+        if (i > 0) labelling_avoid(&pen->labels, last, next, 8);
+        last = next;
+    }
+    panel_note(pen, panel_indexed(&figure->arena, force->symbol), vec_sub(axis, (struct vec){0, radius}),
+               (struct vec){0, -1});
 }
 
 /* ---- the whole */
@@ -239,7 +409,9 @@ static bool prepare(struct figure *figure, const fbd_state *state, const fbd_dra
     const struct vec size = vec_sub(box.high, box.low), middle = vec_scale(0.5, vec_add(box.low, box.high));
     const double largest = fmax(size.x, size.y);
     const double millimetres = largest > 0 ? 10 / round_up(10 * largest / figure_size) : 1;
-    for (size_t b = 0; b < figure->count; b++) panel_join(&figure->panels[b], middle, millimetres);
+    const double share = share_of(figure, millimetres);
+    for (size_t b = 0; b < figure->count; b++) panel_join(&figure->panels[b], middle, millimetres, share);
+    if (!stack(figure)) return false;
     *figure->pen = figure->panels[0];
     return true;
 }
@@ -250,8 +422,10 @@ static void draw(struct figure *figure)
     for (size_t i = 0; i < fbd_view_coupling_count(figure->view); i++) draw_coupling(figure, i);
     draw_bodies(figure);
     for (size_t b = 0; b < figure->count; b++)
-        for (size_t i = 0; i < figure->panels[b].force_count; i++)
-            draw_force(figure, &figure->panels[b].forces[i]);
+        for (size_t i = 0; i < figure->panels[b].force_count; i++) {
+            draw_force(figure, &figure->panels[b].forces[i], figure->panels[b].lift);
+            draw_moment(figure, &figure->panels[b], &figure->panels[b].forces[i]);
+        }
     labelling_solve(&figure->pen->labels);
     for (size_t i = 0; i < figure->pen->labels.label_count; i++) {
         const struct box box = labelling_box(&figure->pen->labels.labels[i]);

@@ -61,7 +61,37 @@ check '(the same bytes)' cmp -s out system.svg
 check 'its applied forces have letters' exits 0 draw "$incline" --system
 check '(push)' says '>push</text>' out
 check 'without gravity and reactions' lacks 'class="(gravity|reaction)"|>mg<|>N<' out
+check 'a body on another' exits 0 draw "$models/trees/stacked_blocks.yaml" --system
+check 'stands on top of it' says 'class="body" points="9,-19.5 -9,-19.5 -9,-6.5 9,-6.5"' out
+check 'bodies on two ropes' exits 0 draw "$models/couplings/atwood.yaml" --system
+check 'do not overlap' says 'class="body" points="-1.056,' out
+check 'a track' exits 0 draw "$models/tracks/loop_the_loop.yaml" --system
+check 'is drawn whole' sh -c '[ "$(grep -o "class=\"ground\".* y2=\"-50\"" out | wc -l)" -ge 1 ]'
+check 'a rope that a winch winds up' exits 0 draw "$models/couplings/winch.yaml" --system
+check 'has a drum' says 'circle class="body" [^>]*r="4"' out
+check 'and no wall' lacks 'class="hatch"' out
+check 'bodies on one ground' exits 0 draw "$models/contact/dominoes.yaml" --system
+check 'have it hatched once' sh -c '[ "$(grep -c "class=\"hatch\"" out)" -eq 1 ]'
+check 'a slope under a ball' exits 0 draw "$models/couplings/rolling_on_incline.yaml" --system
+check 'has its angle' says '>30°<' out
+check 'a truss' exits 0 draw "$models/statics/truss.yaml" --system
+check 'stands on a pin' says 'polygon class="support"' out
+check 'and a roller' says 'circle class="support"' out
+check 'an applied moment' exits 0 draw "$crank" --system
+check 'is an arc with its letter' sh -c 'grep -q "path class=\"shaft\"" out && grep -q ">drive<" out'
 check '--system is no body alone' exits 2 draw "$crank" --system --body piston
+
+all_drawn() { # the figure of every model, well formed
+    mkdir figures && find "$models" -name '*.yaml' | sort >models.txt
+    while read -r file; do
+        run --quiet --equations --svg "figures/$(basename "$file" .yaml).svg" --system "$file" || {
+            echo "# $file"
+            return 1
+        }
+    done <models.txt
+    python3 -c 'import sys, xml.dom.minidom as x; [x.parse(name) for name in sys.argv[1:]]' figures/*.svg
+}
+check 'every model has a figure of its system' all_drawn
 
 # ---- gears without a shape: the force stands at the mesh, one radius from the axis
 check 'gears' exits 0 draw "$models/couplings/gear_pair.yaml"
