@@ -215,6 +215,9 @@ static bool take_drawing(struct options *options, int option)
     case option_details: options->details = true; return true;
     case option_page: options->page = optarg; return true;
     case option_exam: options->exam = true; return true;
+    case option_plot: options->plot = optarg; return true;
+    case option_plot_of: options->plot_of = optarg; return true;
+    case option_gnuplot: options->gnuplot = optarg; return true;
     case option_cut: options->cut = optarg; return true;
     case option_find: options->find = optarg; return true;
     case option_fit: options->fit = optarg; return true;
@@ -264,9 +267,6 @@ static bool take_option(const struct command_line *unused, int option, void *con
         options->html = optarg;
         return true;
     case option_note: options->note = optarg; return note_can_be_written(&line, optarg);
-    case option_plot: options->plot = optarg; return true;
-    case option_plot_of: options->plot_of = optarg; return true;
-    case option_gnuplot: options->gnuplot = optarg; return true;
     case option_latex: options->latex = true; return true;
     case option_seed: return take_seed(&options->seed);
     case option_equations: return choose_action(options, action_equations);

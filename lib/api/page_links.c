@@ -167,10 +167,9 @@ static void write_surfaces(struct text *text, const fbd_result *result, const st
 void page_couplings_write(struct text *text, const fbd_result *result, const struct record *record)
 {
     const struct tree *tree = record->model->tree;
-    int count = tree ? tree->coupling_count : 0;
     size_t written = 0;
     text_add(text, "\"couplings\":[");
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < tree->coupling_count; i++) {
         if (tree->couplings[i].meeting >= 0) continue; /* its shapes and its forces are drawn */
         if (tree->couplings[i].kind == constraint_resistance) continue; /* its roll is drawn */
         json_comma(text, written++);

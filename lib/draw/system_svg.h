@@ -8,6 +8,6 @@
 #include "fbd_export.h"
 
 /* The document, to be freed with fbd_free; NULL with a note in `errors`: `not-finite`, or memory is out. */
-char *system_svg(fbd_state *state, const fbd_drawing *drawing, fbd_errors *errors);
+char *system_svg(fbd_state *state, const fbd_drawing *given, fbd_errors *errors);
 
 #endif
