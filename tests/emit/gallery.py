@@ -143,6 +143,8 @@ def missing(name, text):
         return kind[1] if kind[1] != "roll" else "rolling"
     if "\ncontacts:" in text:
         return "contacts"
+    if re.search(r"\bmass: 0(?= kg|$)", text, re.MULTILINE):
+        return "without mass"
     if "\ntables:" in text:
         return "tables"
     return "along a switch" if name in SLIDES else ""
