@@ -54,7 +54,7 @@ static const double shift_of_rows = 1e-8, weak_share = 1e-4;
 static bool has_no_inertia(const struct tree *tree, int unknown, double pivot)
 {
     const double nothing_left = 1e-11;
-    return !(-pivot * massless_of(tree, unknown)->added > nothing_left);
+    return -pivot * massless_of(tree, unknown)->added <= nothing_left;
 }
 
 /* Factor row and column j up to the diagonal, given those before. */

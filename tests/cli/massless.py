@@ -161,11 +161,23 @@ def fault(kind, draw):
     return None
 
 
+def swings():
+    """Small oscillations of a disc on a light lever: those of a point, and the disc keeps its angle."""
+    text = """fbd: 1
+bodies:
+  lever: {mass: 0 kg, motion: pivot, initial: {theta: -90 deg}}
+  disc: {mass: 2 kg, shape: disc, radius: 0.2 m, motion: {pivot: {on: lever, at: [0.7 m, 0]}}, forces: [gravity]}
+"""
+    done = subprocess.run([RUN, "--linearize", "--json", "-", "--quiet", "-"], input=text, capture_output=True, text=True, check=False)
+    return done.returncode == 0 and any(abs(value["im"] - math.sqrt(G / 0.7)) < 1e-7
+                                        for value in json.loads(done.stdout)["eigenvalues"])
+
+
 def main():
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 8
     draw = random.Random(int(sys.argv[2]) if len(sys.argv) > 2 else 1)
     kinds = [atwood, movable_pulley, lever, slider_crank]
-    print(f"1..{len(kinds) + len(REFUSED)}")
+    print(f"1..{len(kinds) + len(REFUSED) + 1}")
     failed = False
     for number, kind in enumerate(kinds, 1):
         faults = [text for text in (fault(kind, draw) for _ in range(count)) if text]
@@ -177,7 +189,9 @@ def main():
         fine = refused(bodies, name)
         print(f"{'ok' if fine else 'not ok'} {number} - {what} is refused")
         failed |= not fine
-    return failed
+    fine = swings()
+    print(f"{'ok' if fine else 'not ok'} {len(kinds) + len(REFUSED) + 1} - small oscillations of a disc on a light lever")
+    return failed or not fine
 
 
 if __name__ == "__main__":
