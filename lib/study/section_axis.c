@@ -111,7 +111,8 @@ bool section_find_axis(struct section_work *work)
     work->bars = ARENA_ARRAY(&work->section->arena, count + 1, struct section_bar);
     fbd_view *view = work->bars ? fbd_view_new(work->state, work->errors) : NULL;
     if (!view) return false;
-    const double factor = fbd_view_mass(view, work->body).mass / fbd_model_inertia(model, work->body).mass;
+    const double stated = fbd_model_inertia(model, work->body).mass;
+    const double factor = stated == 0 ? 0 : fbd_view_mass(view, work->body).mass / stated;
     fbd_view_free(view);
     for (size_t i = 0; i < count; i++) {
         const fbd_shape shape = fbd_model_shape(model, work->body, i);

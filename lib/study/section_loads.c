@@ -271,7 +271,8 @@ bool section_list_loads(struct section_work *work)
     for (size_t i = 0; i < work->force_count && fine; i++) {
         const fbd_arrow *arrow = &work->forces[i].arrow;
         if (strcmp(work->forces[i].law, "gravity") == 0)
-            work->gravity = vec_scale(1 / total, turned(work, (struct vec){arrow->fx, arrow->fy}));
+            work->gravity =
+                vec_scale(total == 0 ? 0 : 1 / total, turned(work, (struct vec){arrow->fx, arrow->fy}));
         else if (!stays_within(work, i))
             fine = false;
         else if (!add_spread(work, i, arrow))

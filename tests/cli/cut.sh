@@ -25,6 +25,10 @@ check 'with the steps' json '[j["name"] for j in it["jumps"]] == ["A", "P", "B"]
 check 'a drawing' exits 0 run --quiet --static --cut beam --svg beam.svg "$beam"
 check 'has three diagrams' sh -c 'grep -c "<g id=\"section-" beam.svg | grep -qx 3'
 
+sed '0,/^    mass: .*/s//    mass: 0 kg/' "$beam" >light.yaml
+check 'a beam without mass' exits 0 run --static --cut beam light.yaml
+check 'bears its load alone: P a b/L' says '^  greatest M +225 N\*m +at x = 1 m$' out
+
 chimney="$models/rotation/falling_chimney.yaml"
 check 'a motion at a time' exits 0 run --cut chimney --at 2s "$chimney"
 check 'is bent most at a third' says '^  greatest M +17325\.5642 N\*m +at x = 6\.66666667 m$' out
