@@ -55,7 +55,9 @@ static size_t arm_count(const struct tree *tree)
 size_t closed_loops_size(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
-    if (model->names_places || tree->ends || tree->massless_count > 0 || !has_simple_joints(tree) || !has_pins_only(tree)) return 0;
+    if (model->names_places || tree->ends || tree->massless_count > 0 || !has_simple_joints(tree) ||
+        !has_pins_only(tree))
+        return 0;
     int independent = tree->joined - 1 - 2 * tree->coupling_count;
     if (independent < 1 || independent > most_independent) return 0;
     size_t links = (size_t)tree->joined, bases = (size_t)independent;

@@ -333,8 +333,7 @@ void tree_system_assemble(const struct fbd_model *model, const struct instant *a
     struct tree_work *work = at->tree;
     set_places(model, at);
     if (work->count == 0) return;
-    work->symmetric =
-        (model->plan.mode_count == 0 && tree->massless_count == 0) || has_rows_only(model, at);
+    work->symmetric = (model->plan.mode_count == 0 && tree->massless_count == 0) || has_rows_only(model, at);
     if (system_has_paths(tree, work)) {
         assemble_paths(tree, work);
     } else {

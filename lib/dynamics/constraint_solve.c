@@ -197,11 +197,10 @@ static void refine(const struct fbd_model *model, const struct instant *at, doub
         memcpy(work->sum, work->x, links * sizeof *work->sum);
         memcpy(work->sum_unit, work->unit, n * sizeof *work->sum_unit);
         for (int j = 0; j < tree_unknowns(tree); j++)
-            left[j] = work->place[j] < 0          ? 0
-                      : unknown_is_row(tree, j) ? work->wanted[j] - tree_row_answer(work, j)
-                      : unknown_is_massless(tree, j)
-                          ? work->wanted[j] - massless_answer(tree, work, j, z[j])
-                          : 0;
+            left[j] = work->place[j] < 0             ? 0
+                      : unknown_is_row(tree, j)      ? work->wanted[j] - tree_row_answer(work, j)
+                      : unknown_is_massless(tree, j) ? work->wanted[j] - massless_answer(tree, work, j, z[j])
+                                                     : 0;
         solve(work, left);
         tree_system_answer(model, at, left);
         for (size_t i = 0; i < links; i++) {

@@ -165,15 +165,16 @@ static bool note_limits(const struct fbd_state *state, struct nonfinite *found)
     return false;
 }
 
-bool nonfinite_is_massless(const struct fbd_state *state, struct nonfinite *found)
+bool state_is_unresisted(const struct fbd_state *state, struct unresisted *motion)
 {
     const struct fbd_model *model = state->model;
     const struct tree_massless *of = state->tree->unmoved;
     if (!of) return false;
     const struct tree_link *link = &model->tree->links[of->link];
     const struct model_body *body = &model->bodies[link->body];
-    nonfinite_note(found, NAN, body->source->at, "no inertia resists the motion along `%s.%s`", body->name,
-                   model->scene->coordinates[link->coordinate + of->local].name);
+    snprintf(motion->text, sizeof motion->text, "no inertia resists the motion along `%s.%s`", body->name,
+             model->scene->coordinates[link->coordinate + of->local].name);
+    motion->at = body->source->at;
     return true;
 }
 

@@ -19,8 +19,12 @@ struct nonfinite {
  * depend on them), and the energies of the bodies. */
 bool nonfinite_find(const struct fbd_state *state, struct nonfinite *found);
 
-/* Does a motion have no inertia (model/tree_massless.c)? Then `what` says so, as a sentence but for its time. */
-bool nonfinite_is_massless(const struct fbd_state *state, struct nonfinite *found);
+/* A motion that no inertia resists (model/tree_massless.c): a sentence but for its time, and its body's place. */
+struct unresisted {
+    char text[240];
+    struct pos at;
+};
+bool state_is_unresisted(const struct fbd_state *state, struct unresisted *motion);
 
 /* Why a number may not be finite, as the end of a sentence. */
 const char *nonfinite_reason(double value);

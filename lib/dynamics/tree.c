@@ -369,5 +369,6 @@ void tree_accelerations(const struct fbd_model *model, const struct instant *at,
     for (int i = tree->joined; i < tree->count; i++) tree_accelerate_alone(model, at, i, slots, a);
     work->complete = work->shared = false;
     work->fastest = -1;
-    if (tree->joined_watched + tree->coupling_count + tree->massless_count > 0) constrain(model, at, slots, a);
+    if (tree->joined_watched + tree->coupling_count + tree->massless_count > 0)
+        constrain(model, at, slots, a);
 }

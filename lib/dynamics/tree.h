@@ -109,12 +109,12 @@ struct tree_work {
     int *rank;                       /* unknowns + 1: number of active unknowns before a place of the tree */
     int count;                       /* of active unknowns */
     size_t envelope_size;
-    double *unit;           /* n: accelerations that are added */
-    double *a, *a_along;    /* n: accelerations of the last force_balance, and their variation */
-    double *taken;          /* n: the result of tree_rounding */
-    double most;            /* the largest scale of a row */
+    double *unit;                        /* n: accelerations that are added */
+    double *a, *a_along;                 /* n: accelerations of the last force_balance, and their variation */
+    double *taken;                       /* n: the result of tree_rounding */
+    double most;                         /* the largest scale of a row */
     const struct tree_massless *unmoved; /* a coordinate whose motion no inertia resists, or NULL */
-    double *scale;          /* unknowns: largest possible diagonals, see constraint_solve.c */
+    double *scale;                       /* unknowns: largest possible diagonals, see constraint_solve.c */
     double damping;         /* of a projection: relative squares of slopes below this are damped out */
     double accuracy;        /* relative, of projected coordinates */
     bool projecting;        /* the system is set up for a projection: no friction */

@@ -32,7 +32,8 @@ static struct lever lever_at(const struct tree *tree, const struct tree_work *wo
                           {force, force, moment},
                           {1 / s->mass, 1 / s->mass, 1 / s->I_O}};
     if (lever.count == 1) lever.inverse[0] = s->D;
-    if (link->added[0] > 0 && lever.count > 1) lever.inverse[0] = lever.inverse[1] = s->inverse[0] + s->inverse[2];
+    if (link->added[0] > 0 && lever.count > 1)
+        lever.inverse[0] = lever.inverse[1] = s->inverse[0] + s->inverse[2];
     if (link->added[1] > 0) lever.inverse[2] = s->D;
     if (link_joint(link)->has_axis) lever.gain[0] = moment;
     if (link_joint(link)->path == path_curve) lever.gain[0] += fabs(s->turning) * moment;

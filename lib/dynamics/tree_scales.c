@@ -58,14 +58,14 @@ void tree_set_scales(const struct tree *tree, struct tree_work *work)
                     has_arm(&work->rows[first], k, link, row->ports[k].arm))
                     continue;
                 scale = fmax(scale, mobility(tree, work, link, row->ports[k].arm));
-                if (link > 0 && tree->links[link].mass > 0)
-                    lightest = fmin(lightest, tree->links[link].mass);
+                if (link > 0 && tree->links[link].mass > 0) lightest = fmin(lightest, tree->links[link].mass);
             }
             scale = fmax(scale, work->diagonal[j]);
         }
         for (int j = first; j < end; j++) work->scale[j] = work->place[j] < 0 ? 1 : scale / apart;
         most = fmax(most, scale);
     }
-    for (int k = tree->row_count; k < tree_unknowns(tree); k++) work->scale[k] = unknown_is_massless(tree, k) ? 0 : work->diagonal[k];
+    for (int k = tree->row_count; k < tree_unknowns(tree); k++)
+        work->scale[k] = unknown_is_massless(tree, k) ? 0 : work->diagonal[k];
     work->most = fmax(most, 1 / lightest);
 }

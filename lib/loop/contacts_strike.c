@@ -356,14 +356,15 @@ static void fail_impact(struct run *run, enum impacts_end end, enum impact_law l
         [impacts_unsolvable] = "have no solution by their law: with `law: stronge` they may have one",
         [impacts_lost] = lost,
     };
-    struct nonfinite found;
+    struct unresisted motion;
     if (end == impacts_no_memory)
         run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
-    else if (nonfinite_is_massless(run->state, &found))
-        run_fail(run, FBD_FAILED,
-                 "at t = %.9g %s in an impact, in which ropes may become slack: give that body a small mass, or "
-                 "end the run earlier by an event",
-                 run_time(run), found.what);
+    else if (state_is_unresisted(run->state, &motion))
+        run_fail(
+            run, FBD_FAILED,
+            "at t = %.9g %s in an impact, in which ropes may become slack: give that body a small mass, or "
+            "end the run earlier by an event",
+            run_time(run), motion.text);
     else if (end == impacts_unsolvable && !impact_by_velocity(law))
         run_fail(run, FBD_FAILED,
                  "at t = %.9g the impulses of an impact have no solution: friction on a guide or in a slot "

@@ -116,7 +116,8 @@ static void check_massless(const struct builder *builder)
                            tree->couplings[c].end[end].link == tree->massless[k].link;
         if (touches)
             diag_add(builder->errors, FBD_ERROR, "not-here", body->source->at, "give it a small mass",
-                     "`%s` has no mass and can touch other bodies: an impact on it has no result", body->name);
+                     "`%s` has no mass and can touch other bodies: an impact on it has no result",
+                     body->name);
         else if (link->parent > 0 && link_joint(link)->count > 1)
             diag_add(builder->errors, FBD_ERROR, "not-here", body->source->at, "give it a small mass",
                      "`%s` has no mass and moves freely on a body that moves", body->name);

@@ -57,7 +57,8 @@ struct tree_link {
     int normal_slot; /* slot of minus its normal force, or -1 */
     int root;        /* the first link of its tree */
     int end;         /* links from its own number up to this one (not included) move with it */
-    double added[2]; /* inertia that may be added to its joint, see tree_massless.c: of its only coordinate, or
+    double
+        added[2]; /* inertia that may be added to its joint, see tree_massless.c: of its only coordinate, or
                       * mass and moment of inertia of a free joint; 0 if it has its own */
 };
 

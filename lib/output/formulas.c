@@ -54,8 +54,7 @@ bool equation_in_symbols(const struct fbd_model *model, const struct equation *e
     bool acts = e->inertia != 0 || e->sum != 0;
     for (size_t i = 0; is_massless(model, equation->body) && i < e->term_count; i++)
         acts |= e->terms[i].value != 0;
-    return acts &&
-           equation_is_written(model, equation->body, equation->cut_free, equation->part, components);
+    return acts && equation_is_written(model, equation->body, equation->cut_free, equation->part, components);
 }
 
 bool newton_in_symbols(const struct fbd_model *model, const fbd_equations *all, int b, int part,

@@ -39,8 +39,9 @@ bool result_finite(struct ensemble *ensemble, struct ledger *ledger, const doubl
 {
     struct fbd_state *state = ensemble_state(ensemble);
     struct nonfinite found;
-    if (nonfinite_is_massless(state, &found)) {
-        ensemble_spoil(ensemble, "%s at t = %.9g", found.what, state->t);
+    struct unresisted motion;
+    if (state_is_unresisted(state, &motion)) {
+        ensemble_spoil(ensemble, "%s at t = %.9g", motion.text, state->t);
         return false;
     }
     bool odd = nonfinite_find(state, &found);

@@ -16,13 +16,14 @@
 
 static bool massless_lack(const struct fbd_state *state, struct lack *lack)
 {
-    struct nonfinite found;
-    if (!nonfinite_is_massless(state, &found)) return false;
+    struct unresisted motion;
+    if (!state_is_unresisted(state, &motion)) return false;
     lack->id = "no-inertia";
-    lack->at = found.at;
-    text_printf(&lack->text, "%s at t = ", found.what);
+    lack->at = motion.at;
+    text_printf(&lack->text, "%s at t = ", motion.text);
     text_number(&lack->text, state->t, 9);
-    text_add(&lack->text, ": a body without mass must be joined to one that has some, so that it moves with it");
+    text_add(&lack->text,
+             ": a body without mass must be joined to one that has some, so that it moves with it");
     return true;
 }
 
