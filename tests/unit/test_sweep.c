@@ -88,7 +88,7 @@ static void runs_that_fail_are_rows_and_stop_no_others(void **state)
     assert_int_equal(table.counts.failed, 3);
     assert_field(&table, 0, 7, "wrong");
     assert_field(&table, 0, 3, "");
-    assert_non_null(strstr(table.rows.data, "test.yaml:5:11: the `mass` of a body must be above zero"));
+    assert_non_null(strstr(table.rows.data, "test.yaml:5:11: the `mass` of a body cannot be below zero"));
     assert_field(&table, 2, 7, "done");
     assert_field(&table, 3, 7, "broken");
     close_table(&table);
