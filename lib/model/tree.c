@@ -18,6 +18,13 @@ static void mark(bool *jointed, int body)
     if (body != ground_body) jointed[body] = true;
 }
 
+/* Has the body no mass, or no moment of inertia though it turns? */
+static bool lacks_inertia(const struct model_body *body)
+{
+    const int angle = body->joint->angle;
+    return body->inertia.mass == 0 || (angle >= 0 && coordinate_inertia(body, angle) == 0);
+}
+
 static void mark_jointed(const struct fbd_model *model, bool *jointed)
 {
     const struct scene *scene = model->scene;
@@ -25,7 +32,7 @@ static void mark_jointed(const struct fbd_model *model, bool *jointed)
         const struct motion *motion = &scene->bodies[b].motion;
         const int parent = motion->parent;
         if (motion->prescribed.expr || motion->curve || scene->bodies[b].mass.expr ||
-            model->bodies[b].inertia.mass == 0)
+            lacks_inertia(&model->bodies[b]))
             jointed[b] = true;
         if (parent != ground_body) jointed[b] = jointed[parent] = true;
     }

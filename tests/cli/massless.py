@@ -138,6 +138,7 @@ couplings:
 
 REFUSED = {
     "pulley without a rope": ("pulley: {mass: 0 kg, shape: disc, radius: 0.1 m, motion: pivot}", "pulley.theta"),
+    "wheel of a point mass": ("wheel: {mass: 1 kg, inertia: 0 kg*m^2, motion: {pivot: {point: G}}}", "wheel.theta"),
     "slider with a hanging point": ("""slider: {mass: 0 kg, motion: slide}
   point: {mass: 1 kg, motion: {pivot: {on: slider, at: [0, 0], point: [1 m, 0]}}, initial: {theta: 90 deg}, forces: [gravity]}""",
                                     "slider.x"),
