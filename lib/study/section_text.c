@@ -73,7 +73,7 @@ static void text_row(struct text *text, const fbd_section *section, fbd_cut cut,
     text_number(text, cut.x, digits);
     const double values[section_forces] = {cut.N, cut.V, cut.M};
     for (int k = 0; k < section_forces; k++) {
-        text_pad(text, (size_t)(16 + 18 * k));
+        text_pad(text, 16 + 18 * (size_t)k);
         write_number(text, values[k]);
     }
     const bool first = cut.x == 0, last = cut.x == section->length;
@@ -110,7 +110,7 @@ static void write_head(struct text *text, const fbd_section *section)
         text_add(text, "  parts that are not straight count as concentrated at their centres\n");
     text_printf(text, "\n  x [%s]", units.length);
     for (int k = 0; k < section_forces; k++) {
-        text_pad(text, (size_t)(17 + 18 * k));
+        text_pad(text, 17 + 18 * (size_t)k);
         text_printf(text, "%s [%s]", section_symbols[k], section_unit(section, (enum section_force)k));
     }
     text_add(text, "\n");
