@@ -136,7 +136,7 @@ static bool row_rubs(const struct fbd_model *model, const struct instant *at, in
 {
     const int index = model->tree->coupling_of_row[k];
     const struct coupling *coupling = &model->tree->couplings[index];
-    if (k != coupling->first_row || coupling->kind == constraint_resistance) return false;
+    if (k != coupling->normal_row) return false;
     return tree_rubbing_share(model, at, index) != 0 ||
            (coupling->resistance >= 0 && tree_rubbing_share(model, at, coupling->resistance) != 0);
 }

@@ -233,10 +233,45 @@ static bool settle_all(struct fbd_state *state, const struct decided *decided)
     return sliding_settle(state, decided, settle(state, decided), settle);
 }
 
+/* The largest force between two links, or of a coupling. */
+static double largest_force(const struct fbd_state *state)
+{
+    const struct tree *tree = state->model->tree;
+    double largest = 0;
+    for (int i = 1; i < tree->count; i++) largest = fmax(largest, vec_norm(state->tree->links[i].F.force));
+    for (int j = 0; j < tree->row_count; j++) largest = fmax(largest, fabs(state->tree->rows[j].lambda));
+    return largest;
+}
+
+/* A rope that is taut without tension lets a body without mass move as it likes: with one side of a light pulley
+ * the other one becomes slack, since their tensions are equal. Open such ropes if no inertia resists a
+ * motion then; the state says so. */
+static void let_go(struct fbd_state *state)
+{
+    const double rounding = 1e-12; /* of the forces */
+    const struct plan *plan = &state->model->plan;
+    const struct tree *tree = state->model->tree;
+    state_evaluate(state);
+    const double negligible = rounding * largest_force(state);
+    memcpy(state->slip_before, state->slip, plan->mode_count * sizeof *state->slip);
+    for (size_t pair = 0; pair < plan->mode_count; pair++) {
+        const struct mode *mode = &plan->modes[pair];
+        if (mode->kind != mode_rope || state->slip[pair] != stick) continue;
+        const int row = tree->couplings[mode->coupling].first_row;
+        if (fabs(state->tree->rows[row].lambda) <= negligible) state->slip[pair] = slip_plus;
+    }
+    state_evaluate(state);
+    if (state->tree->unmoved) return;
+    memcpy(state->slip, state->slip_before, plan->mode_count * sizeof *state->slip);
+    state_evaluate(state);
+}
+
 bool modes_settle(struct fbd_state *state, const struct decided *decided)
 {
+    const struct tree *tree = state->model->tree;
     state->tree->tentative = true;
     const bool settled = settle_all(state, decided);
     state->tree->tentative = false;
+    if (settled && tree->massless_count > 0 && state->model->plan.mode_count > 0) let_go(state);
     return settled;
 }

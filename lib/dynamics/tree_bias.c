@@ -81,7 +81,7 @@ static inline __attribute__((always_inline)) void bias(const struct tree *tree, 
 
 void tree_bias(const struct tree *tree, const struct instant *at, int n)
 {
-    if (tree->curved)
+    if (tree->general)
         bias(tree, at, n, true);
     else
         bias(tree, at, n, false);

@@ -95,7 +95,7 @@ move_links(const struct fbd_model *model, const struct instant *at, bool curved,
 
 void tree_move_joined(const struct fbd_model *model, const struct instant *at)
 {
-    if (model->tree->curved)
+    if (model->tree->general)
         move_links(model, at, true, NULL);
     else
         move_links(model, at, false, NULL);

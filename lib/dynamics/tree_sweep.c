@@ -127,23 +127,23 @@ factor_free(const struct tree_link *link, struct tree_state *s, struct inertia_a
     *rest = (struct inertia_about_O){link->kind == motion_planar ? 0 : J, {0, 0}, 0, 0, 0};
 }
 
-/* Trees without tracks and massless coordinates skip those tests for each link: `curved` is a constant in each use. */
-static inline __attribute__((always_inline)) void
-factor_link(const struct tree_link *link, int i, struct tree_state *s, struct tree_state *parent, bool curved)
+/* Trees without tracks and massless coordinates skip those tests for each link: `general` is a constant in each use. */
+static inline __attribute__((always_inline)) void factor_link(const struct tree_link *link, int i,
+                                                              struct tree_state *s, struct tree_state *parent,
+                                                              bool general)
 {
     struct inertia_about_O rest;
-    if (s->locked)
+    if (s->locked) {
         rest = s->I;
-    else if (curved && link->kind == motion_pivot && factor_massless_pivot(link, s, &rest))
-        (void)0;
-    else if (link->kind == motion_pivot)
-        factor_pivot(link, i, s, &rest);
-    else if (link->kind == motion_slide)
-        factor_slide(link, s, &rest, curved);
-    else if (curved && link->kind == motion_track)
+    } else if (link->kind == motion_pivot) {
+        if (!general || !factor_massless_pivot(link, s, &rest)) factor_pivot(link, i, s, &rest);
+    } else if (link->kind == motion_slide) {
+        factor_slide(link, s, &rest, general);
+    } else if (general && link->kind == motion_track) {
         factor_track(link, s, &rest);
-    else
-        factor_free(link, s, &rest, curved);
+    } else {
+        factor_free(link, s, &rest, general);
+    }
     if (link->parent > 0) inertia_add(&parent->I, &rest, s->d);
 }
 
@@ -151,20 +151,20 @@ factor_link(const struct tree_link *link, int i, struct tree_state *s, struct tr
 
 static inline __attribute__((always_inline)) void inward_link(const struct tree_link *link,
                                                               const struct tree_state *s, struct tree_rhs *x,
-                                                              struct tree_rhs *parent, bool curved)
+                                                              struct tree_rhs *parent, bool general)
 {
     struct wrench rest = x->p;
     if (s->locked) {
         /* rigid */
     } else if (link->kind == motion_pivot) {
         x->u = x->g - x->p.moment;
-        rest.moment = curved ? x->g - s->added[0] * s->D * x->u : x->g;
+        rest.moment = general ? x->g - s->added[0] * s->D * x->u : x->g;
         rest.force = vec_add(rest.force, vec_scale(x->u * s->D, s->I.h));
     } else if (link->kind == motion_slide) {
         x->u = x->g - vec_dot(s->e, x->p.force);
         rest.moment += s->Uh * s->D * x->u;
         rest.force = vec_add(rest.force, vec_scale(s->D * x->u, s->U));
-    } else if (curved && link->kind == motion_track) {
+    } else if (general && link->kind == motion_track) {
         x->u = x->g - vec_dot(s->e, x->p.force) - s->turning * x->p.moment;
         rest.moment += s->Uh * s->D * x->u;
         rest.force = vec_add(rest.force, vec_scale(s->D * x->u, s->U));
@@ -179,7 +179,7 @@ static inline __attribute__((always_inline)) void inward_link(const struct tree_
 }
 
 static inline __attribute__((always_inline)) void factor(const struct tree *tree, struct tree_work *work,
-                                                         bool curved)
+                                                         bool general)
 {
     struct tree_state *links = work->links;
     links[0].I = (struct inertia_about_O){0, {0, 0}, 0, 0, 0};
@@ -190,31 +190,31 @@ static inline __attribute__((always_inline)) void factor(const struct tree *tree
     }
     for (int i = tree->joined - 1; i > 0; i--) {
         const struct tree_link *link = &tree->links[i];
-        factor_link(link, i, &links[i], &links[link->parent], curved);
-        inward_link(link, &links[i], &work->x[i], &work->x[link->parent], curved);
+        factor_link(link, i, &links[i], &links[link->parent], general);
+        inward_link(link, &links[i], &work->x[i], &work->x[link->parent], general);
     }
 }
 
 void tree_factor(const struct tree *tree, struct tree_work *work)
 {
-    if (tree->curved)
+    if (tree->general)
         factor(tree, work, true);
     else
         factor(tree, work, false);
 }
 
 static inline __attribute__((always_inline)) void inward(const struct tree *tree, struct tree_work *work,
-                                                         int from, int to, bool curved)
+                                                         int from, int to, bool general)
 {
     for (int i = to - 1; i >= from; i--) {
         const struct tree_link *link = &tree->links[i];
-        inward_link(link, &work->links[i], &work->x[i], &work->x[link->parent], curved);
+        inward_link(link, &work->links[i], &work->x[i], &work->x[link->parent], general);
     }
 }
 
 void tree_inward(const struct tree *tree, struct tree_work *work, int from, int to)
 {
-    if (tree->curved)
+    if (tree->general)
         inward(tree, work, from, to, true);
     else
         inward(tree, work, from, to, false);
@@ -227,7 +227,7 @@ static inline __attribute__((always_inline)) void push_link(const struct tree *t
 {
     const struct tree_link *link = &tree->links[i];
     struct tree_rhs x = {.p = *p}, parent = {.p = {0, {0, 0}}};
-    inward_link(link, s, &x, &parent, tree->curved);
+    inward_link(link, s, &x, &parent, tree->general);
     *p = parent.p;
     push->link = i;
     push->u = x.u;
@@ -276,7 +276,7 @@ static void outward_free(const struct tree_link *link, const struct tree_state *
 }
 
 static inline __attribute__((always_inline)) void outward(const struct tree *tree, struct tree_work *work,
-                                                          int from, int to, double *a, bool curved)
+                                                          int from, int to, double *a, bool general)
 {
     struct tree_rhs *xs = work->x;
     xs[0].A = (struct acceleration){0, {0, 0}};
@@ -289,7 +289,7 @@ static inline __attribute__((always_inline)) void outward(const struct tree *tre
         x->A = acceleration_at(parent->A, s->d);
         if (s->locked) {
             own[0] = 0;
-        } else if (curved && s->added[0] > 0 && link->kind == motion_pivot) {
+        } else if (general && s->added[0] > 0 && link->kind == motion_pivot) {
             own[0] = s->D * (x->u - s->I.J * x->A.alpha - vec_dot(s->I.h, x->A.a));
             x->A.alpha += own[0];
         } else if (link->kind == motion_pivot) {
@@ -298,7 +298,7 @@ static inline __attribute__((always_inline)) void outward(const struct tree *tre
         } else if (link->kind == motion_slide) {
             own[0] = s->D * (x->u - s->Uh * x->A.alpha - vec_dot(s->U, x->A.a));
             x->A.a = vec_add(x->A.a, vec_scale(own[0], s->e));
-        } else if (curved && link->kind == motion_track) {
+        } else if (general && link->kind == motion_track) {
             own[0] = s->D * (x->u - s->Uh * x->A.alpha - vec_dot(s->U, x->A.a));
             x->A.a = vec_add(x->A.a, vec_scale(own[0], s->e));
             x->A.alpha += s->turning * own[0];
@@ -310,7 +310,7 @@ static inline __attribute__((always_inline)) void outward(const struct tree *tre
 
 void tree_outward(const struct tree *tree, struct tree_work *work, int from, int to, double *a)
 {
-    if (tree->curved)
+    if (tree->general)
         outward(tree, work, from, to, a, true);
     else
         outward(tree, work, from, to, a, false);

@@ -153,7 +153,7 @@ struct tree {
     struct link_loads joined_loads; /* those that act on jointed links, which come first */
     struct link_loads *alone_loads; /* of each link that stands alone, from `joined` on */
     bool loaded;                    /* a load of the lists above acts on jointed links */
-    bool curved;                    /* there are tracks, or massless coordinates */
+    bool general;                   /* there are tracks, or massless coordinates */
     double mass_ratio;              /* heaviest over lightest link */
     int pair_count;                 /* jointed links whose dry friction depends on a normal force */
     int *pairs;                     /* their numbers */
@@ -212,6 +212,12 @@ bool tree_name_reactions(struct fbd_model *model);
 
 /* Add a load to the lists of the tree and to those of the plan that act in joints. */
 void tree_add_load(struct builder *builder, int index);
+
+/* The least and the greatest mass of the jointed links, without massless ones; HUGE_VAL and 0 if all are. */
+struct mass_range {
+    double least, most;
+};
+struct mass_range tree_masses(const struct tree *tree);
 
 /* Find the massless coordinates (tree_massless.c). False when memory is out. */
 bool tree_find_massless(struct fbd_model *model);

@@ -5,15 +5,15 @@
  */
 #include "model/builder.h"
 
-static double mass_ratio(const struct tree *tree)
+struct mass_range tree_masses(const struct tree *tree)
 {
-    double heaviest = 0, lightest = HUGE_VAL;
+    struct mass_range masses = {HUGE_VAL, 0};
     for (int i = 1; i < tree->joined; i++) {
         const double mass = tree->links[i].mass;
-        heaviest = fmax(heaviest, mass);
-        if (mass > 0) lightest = fmin(lightest, mass);
+        masses.most = fmax(masses.most, mass);
+        if (mass > 0) masses.least = fmin(masses.least, mass);
     }
-    return heaviest / lightest;
+    return masses;
 }
 
 /* ---- which loads act on which link: those of jointed links come first, then link by link those of the others */
@@ -71,10 +71,11 @@ bool tree_finish(struct fbd_model *model)
     }
     if (!share_loads(model)) return false;
     tree->loaded = tree->joined_loads.any || tree->bulk_count > 0;
-    tree->mass_ratio = mass_ratio(tree);
+    const struct mass_range masses = tree_masses(tree);
+    tree->mass_ratio = masses.most / masses.least;
     for (int i = 1; i < tree->joined; i++)
-        if (tree->links[i].track) tree->curved = true;
+        if (tree->links[i].track) tree->general = true;
     if (!tree_find_massless(model)) return false;
-    if (tree->massless_count > 0) tree->curved = true;
+    if (tree->massless_count > 0) tree->general = true;
     return couplings_order(model);
 }

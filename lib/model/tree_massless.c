@@ -34,29 +34,18 @@ static double reach_of(const struct tree *tree, int link)
     return reach > 0 ? reach : 1;
 }
 
-/* The geometric mean of the smallest and the largest mass. */
-static double mean_mass(const struct tree *tree)
-{
-    double heaviest = 0, lightest = HUGE_VAL;
-    for (int i = 1; i < tree->joined; i++) {
-        const double mass = tree->links[i].mass;
-        heaviest = fmax(heaviest, mass);
-        if (mass > 0) lightest = fmin(lightest, mass);
-    }
-    return heaviest > 0 ? sqrt(heaviest) * sqrt(lightest) : 1;
-}
-
 /* Has the link no inertia of its own along a coordinate of its joint? */
 static bool is_massless(const struct tree_link *link, int local)
 {
-    if (link->kind == motion_pivot) return link->I_O == 0;
+    if (link_joint(link)->has_axis) return link->I_O == 0;
     return local == link_joint(link)->angle ? link->I_G == 0 : link->mass == 0;
 }
 
 bool tree_find_massless(struct fbd_model *model)
 {
     struct tree *tree = model->tree;
-    const double mass = mean_mass(tree);
+    const struct mass_range masses = tree_masses(tree);
+    const double mass = masses.most > 0 ? sqrt(masses.most) * sqrt(masses.least) : 1;
     tree->massless = ARENA_ARRAY(&model->arena, (size_t)model->plan.n, struct tree_massless);
     if (!tree->massless) return false;
     for (int i = 1; i < tree->joined; i++) {

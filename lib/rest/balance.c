@@ -15,6 +15,7 @@
 
 #include "base/block_alloc.h"
 #include "dynamics/mass.h"
+#include "dynamics/nonfinite.h"
 #include "dynamics/rest_system.h"
 #include "dynamics/tree.h"
 #include "expr/unit.h"
@@ -213,6 +214,12 @@ static struct worst find_worst(const struct fbd_state *state, struct answer_leve
 
 bool balance_lack(struct fbd_state *state, struct text *lack)
 {
+    struct unresisted motion;
+    if (state_is_unresisted(state, &motion)) {
+        text_printf(lack, "at t = %.9g %s: give that body a small mass, or end the run before by an event",
+                    state->t, motion.text);
+        return true;
+    }
     struct instant at = state_instant(state);
     bool used = !state->tree->complete || (!state->tree->shared && rest_is_open(state->model, &at));
     if (used) state_evaluate(state); /* its scratch was overwritten */

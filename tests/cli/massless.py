@@ -150,6 +150,17 @@ def refused(bodies, name):
     return done.returncode != 0 and f"no inertia resists the motion along `{name}`" in done.stderr
 
 
+def slackens():
+    """With one side of a rope on a light pulley the other one becomes slack, and nothing holds the pulley."""
+    done = run("""bodies:
+  pulley: {mass: 0 kg, shape: disc, radius: 0.2 m, motion: pivot}
+  a: {mass: 1 kg, motion: {slide: {along: -90 deg, through: [-0.2 m, -3 m]}}, forces: [gravity, drag: {linear: 3 kg/s}]}
+  b: {mass: 1 kg, motion: {slide: {along: -90 deg, through: [0.2 m, -3 m]}}, forces: [gravity, applied: {value: "-80[N/s]*t"}]}
+couplings: [rope: {through: [a.G, pulley, b.G]}]
+""")
+    return done.returncode != 0 and "no inertia resists the motion along `pulley.theta`" in done.stderr
+
+
 def fault(kind, draw):
     text, wanted = kind(draw)
     done = run(text)
@@ -178,7 +189,7 @@ def main():
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 8
     draw = random.Random(int(sys.argv[2]) if len(sys.argv) > 2 else 1)
     kinds = [atwood, movable_pulley, lever, slider_crank]
-    print(f"1..{len(kinds) + len(REFUSED) + 1}")
+    print(f"1..{len(kinds) + len(REFUSED) + 2}")
     failed = False
     for number, kind in enumerate(kinds, 1):
         faults = [text for text in (fault(kind, draw) for _ in range(count)) if text]
@@ -190,9 +201,12 @@ def main():
         fine = refused(bodies, name)
         print(f"{'ok' if fine else 'not ok'} {number} - {what} is refused")
         failed |= not fine
-    fine = swings()
-    print(f"{'ok' if fine else 'not ok'} {len(kinds) + len(REFUSED) + 1} - small oscillations of a disc on a light lever")
-    return failed or not fine
+    last = len(kinds) + len(REFUSED)
+    for number, (name, fine) in enumerate((("small oscillations of a disc on a light lever", swings()),
+                                           ("a light pulley whose rope becomes slack is refused", slackens())), last + 1):
+        print(f"{'ok' if fine else 'not ok'} {number} - {name}")
+        failed |= not fine
+    return failed
 
 
 if __name__ == "__main__":
