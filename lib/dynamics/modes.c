@@ -246,7 +246,7 @@ static double largest_force(const struct fbd_state *state)
 /* A rope that is taut without tension lets a body without mass move as it likes: with one side of a light pulley
  * the other one becomes slack, since their tensions are equal. Open such ropes if no inertia resists a
  * motion then; the state says so. */
-static void let_go(struct fbd_state *state)
+static void release_idle_ropes(struct fbd_state *state)
 {
     const double rounding = 1e-12; /* of the forces */
     const struct plan *plan = &state->model->plan;
@@ -272,6 +272,6 @@ bool modes_settle(struct fbd_state *state, const struct decided *decided)
     state->tree->tentative = true;
     const bool settled = settle_all(state, decided);
     state->tree->tentative = false;
-    if (settled && tree->massless_count > 0 && state->model->plan.mode_count > 0) let_go(state);
+    if (settled && tree->massless_count > 0 && state->model->plan.mode_count > 0) release_idle_ropes(state);
     return settled;
 }
