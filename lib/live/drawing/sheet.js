@@ -14,11 +14,15 @@ function keepHistory(field = "") {
   kept.future = [];
 }
 
-function restore(text) {
+function setDrawing(text) {
   const [entries, lines, next, inertia] = JSON.parse(text);
   Object.assign(drawing, { entries, lines, next, inertia });
   if (!entryOf(drawing.selected)) drawing.selected = 0;
   kept.field = "";
+}
+
+function restore(text) {
+  setDrawing(text);
   changed();
   showAll();
 }
@@ -54,11 +58,13 @@ function keepDraft() {
   try { localStorage.setItem(draftKey(), snapshot()); } catch { drawing.lost = kept.past.length > 0; } // some keep nothing of files
 }
 
-// Restore the last draft, or begin with an empty sheet.
+// Show the last draft, or an empty sheet. Reading writes nothing: another window may have kept a newer draft.
 function takeDraft() {
   let draft = null;
   try { draft = localStorage.getItem(draftKey()); } catch { /* as before */ }
-  restore(draft || snapshot());
+  setDrawing(draft || snapshot());
+  showAnswer();
+  showAll();
 }
 
 // ---- the file
@@ -73,14 +79,18 @@ function saveAnswer() {
   element("says").textContent = `saved as ${link.download}`;
 }
 
+function showAnswer() {
+  element("answer").textContent = answerOf().text;
+  element("undo").disabled = !kept.past.length;
+  element("redo").disabled = !kept.future.length;
+}
+
 // After a change the previous check is no longer valid.
 function changed() {
   drawing.marks.clear();
   element("verdict").hidden = true;
   element("says").textContent = "";
-  element("answer").textContent = answerOf().text;
-  element("undo").disabled = !kept.past.length;
-  element("redo").disabled = !kept.future.length;
+  showAnswer();
   keepDraft();
 }
 
