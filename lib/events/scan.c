@@ -19,11 +19,11 @@ struct scan_point {
     double *values, *rates;
 };
 
-static int take_counted(void *context, double t, double *values, double *rates)
+static int take_counted(void *context, double t, const bool *asked, double *values, double *rates)
 {
     struct scan *scan = context;
     scan->samples++;
-    return scan->sample(scan->context, t, values, rates);
+    return scan->sample(scan->context, t, asked, values, rates);
 }
 
 bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *context, struct arena *memory)
@@ -32,7 +32,7 @@ bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *cont
     if (count == 0) return true; /* no functions */
     scan->points = ARENA_ARRAY(memory, spare_points, struct scan_point);
     double *next = ARENA_ARRAY(memory, (size_t)2 * spare_points * count, double);
-    scan->crossed = ARENA_ARRAY(memory, 6 * count, bool);
+    scan->crossed = ARENA_ARRAY(memory, 7 * count, bool);
     scan->lone = ARENA_ARRAY(memory, count, struct root_group);
     scan->prover.now =
         ARENA_ARRAY(memory, 2 * count, struct enclosure); /* enough for a group of all functions */
@@ -45,6 +45,7 @@ bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *cont
     scan->dipped = scan->chosen + count;
     scan->waits = scan->dipped + count;
     scan->silent = scan->waits + count;
+    scan->unfinished = scan->silent + count;
     for (size_t i = 0; i < count; i++) {
         scan->sampled[i] = true;
         scan->lone[i] = (struct root_group){.first = i, .count = 1};
@@ -56,10 +57,10 @@ bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *cont
 
 /* ---- samples */
 
-static int take_sample(struct scan *scan, struct scan_point *point, double t)
+static int take_sample(struct scan *scan, struct scan_point *point, double t, const bool *asked)
 {
     point->t = t;
-    return take_counted(scan, t, point->values, point->rates);
+    return take_counted(scan, t, asked, point->values, point->rates);
 }
 
 static bool active(const struct scan_point *a, const struct scan_point *b, size_t i)
@@ -126,7 +127,7 @@ static int locate(struct scan *scan, struct scan_point *a, struct scan_point *b,
         else if (b->t - t < reach)
             t = b->t - fmin(reach, width / 2), reach *= 8;
         if (!(t > a->t && t < b->t)) break;
-        int status = take_sample(scan, m, t);
+        int status = take_sample(scan, m, t, scan->chosen);
         if (status) return status;
         exchange(m, any_crosses(scan, a, m) ? b : a);
     }
@@ -148,14 +149,13 @@ static void note_seen(struct scan *scan, const struct root_group *group)
 static int locate_in_group(struct scan *scan, struct root_group *group)
 {
     struct scan_point *a = &scan->points[0], *b = &scan->points[1];
-    int status = take_sample(scan, a, group->low);
-    if (!status) status = take_sample(scan, b, group->high);
-    if (status) return status;
-    for (size_t i = 0; i < scan->count; i++) {
+    for (size_t i = 0; i < scan->count; i++)
         scan->chosen[i] = i >= group->first && i < group->first + group->count;
-        if (scan->chosen[i] && a->values[i] < 0)
-            a->values[i] = 0; /* round-off, or the beginning of the search */
-    }
+    int status = take_sample(scan, a, group->low, scan->chosen);
+    if (!status) status = take_sample(scan, b, group->high, scan->chosen);
+    if (status) return status;
+    for (size_t i = group->first; i < group->first + group->count; i++)
+        if (a->values[i] < 0) a->values[i] = 0; /* round-off, or the beginning of the search */
     if (!any_crosses(scan, a, b)) return 0;
     status = locate(scan, a, b, &scan->points[2]);
     group->clear = group->low = scan->points[0].t;
@@ -366,7 +366,8 @@ static int look_at_panel(struct scan *scan, double from, double to, double *limi
     series_open(&scan->series, from, to);
     for (size_t i = 0; i < scan->count; i++) scan->lone[i].open = scan->sampled[i] && !scan->silent[i];
     for (int level = 0; level < series_levels && open; level++) {
-        int status = series_refine(&scan->series, take_counted, scan);
+        for (size_t i = 0; i < scan->count; i++) scan->unfinished[i] = scan->lone[i].open;
+        int status = series_refine(&scan->series, take_counted, scan, scan->unfinished);
         if (status) return status;
         open = false;
         for (size_t i = 0; i < scan->count; i++) {
@@ -458,10 +459,11 @@ static int look_by_series(struct scan *scan, double from, double *limit)
 static int mark_crossed(struct scan *scan, double t)
 {
     if (scan->told) return 1;
-    /* The end of the bracket that was located last, or another one. */
+    /* The end of the bracket that was located last, or another one; now of all functions. */
     bool known = scan->located && scan->points[1].t == t;
     struct scan_point *point = &scan->points[known ? 1 : 2];
-    int status = known ? 0 : take_sample(scan, point, t);
+    int status = known ? take_sample(scan, &scan->points[0], scan->points[0].t, NULL) : 0;
+    if (!status) status = take_sample(scan, point, t, NULL);
     if (status) return status;
     scan->t = t;
     /* Functions of the other pass may have been negative before. */

@@ -21,8 +21,8 @@
 #include "events/interval_roots.h"
 #include "events/series.h"
 
-/* Fill values[count] and rates[count] at t; +HUGE_VAL for a function that is not active. Non-zero stops the
- * scan and is returned. */
+/* Fill values[count] and rates[count] at t, those asked for; +HUGE_VAL for a function that is not active.
+ * Non-zero stops the scan and is returned. */
 typedef series_sampler scan_sampler;
 
 /* Provide enclosures from `from` on; returns the end up to which they are valid, `to` at most, or NAN if
@@ -70,6 +70,7 @@ struct scan {
     bool located;           /* points[1] is the end of the bracket that was located last */
     bool resumed;           /* between scan_pass_over and scan_start */
     bool *sampled, *chosen; /* count: searched by samples; located at present */
+    bool *unfinished;       /* count: their series have to be refined */
     bool *dipped;           /* count: see scan_pass_over */
     bool *silent;           /* count: see scan_leave_out */
     bool *waits;            /* count: of the dipped ones, those not yet seen positive in this interval */

@@ -143,12 +143,12 @@ void series_forget(struct series *series)
 
 /* ---- samples */
 
-static int take(struct series *series, int k, series_sampler *sample, void *context)
+static int take(struct series *series, int k, const bool *asked, series_sampler *sample, void *context)
 {
     double radius = (series->to - series->from) / 2, t = series->from + radius * (1 + node(k));
     if (k == 0 || t > series->to) t = series->to;
     if (k == most || t < series->from) t = series->from;
-    int status = sample(context, t, series->value, series->rate);
+    int status = sample(context, t, asked, series->value, series->rate);
     for (size_t i = 0; i < series->count; i++) {
         series->values[i * nodes + (size_t)k] = series->value[i];
         series->rates[i * nodes + (size_t)k] = series->rate[i] * radius;
@@ -164,7 +164,7 @@ static void prepare(struct series *series)
     series->prepared = true;
 }
 
-int series_refine(struct series *series, series_sampler *sample, void *context)
+int series_refine(struct series *series, series_sampler *sample, void *context, const bool *asked)
 {
     if (!series->prepared) prepare(series);
     int level = ++series->level;
@@ -172,7 +172,7 @@ int series_refine(struct series *series, series_sampler *sample, void *context)
     for (int n = counts[level] - 1; n >= 0; n--) {
         int k = node_of(level, n);
         if (is_taken(level - 1, k) || (level == 0 && k == most && series->known)) continue;
-        int status = take(series, k, sample, context);
+        int status = take(series, k, level == 0 ? NULL : asked, sample, context);
         if (status) return status;
     }
     series->known = true;

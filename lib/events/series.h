@@ -41,8 +41,9 @@ struct series {
     bool prepared;        /* the matrices are set */
 };
 
-/* Fill values[count] and rates[count] at t; non-zero stops. */
-typedef int series_sampler(void *context, double t, double *values, double *rates);
+/* Fill values[count] and rates[count] at t; non-zero stops. Functions that are not asked for may be left out, as
+ * +HUGE_VAL; `asked` is NULL for all. */
+typedef int series_sampler(void *context, double t, const bool *asked, double *values, double *rates);
 
 /* Allocate in `memory`; memory->failed if that is out. */
 void series_init(struct series *series, size_t count, struct arena *memory);
@@ -56,8 +57,9 @@ void series_open(struct series *series, double from, double to);
 /* The functions have changed: discard all samples. */
 void series_forget(struct series *series);
 
-/* Take the samples of the next level. Non-zero is from the sampler. */
-int series_refine(struct series *series, series_sampler *sample, void *context);
+/* Take the samples of the next level: of the first one for all functions, since the next panel may use them
+ * for others, then for those asked for. Non-zero is from the sampler. */
+int series_refine(struct series *series, series_sampler *sample, void *context, const bool *asked);
 
 enum series_state {
     series_inactive,   /* +HUGE_VAL all along */

@@ -74,11 +74,11 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
                    struct arena *memory);
 
 /* values[count] and rates[count] (along the motion) of a set at an instant. +HUGE_VAL and 0 for events that
- * cannot happen in the present modes. The modes and scratch of `state` are used; (t, y) may be any point of a
+ * cannot happen in the present modes, and for those not asked for (NULL: all are). The modes and scratch of `state` are used; (t, y) may be any point of a
  * step. Kinks read the double-double time, all others its leading double. */
 void watchers_evaluate(const struct watchers *watchers, const struct watcher_set *set,
-                       struct fbd_state *state, struct time_dd t, const double *y, double *values,
-                       double *rates);
+                       struct fbd_state *state, struct time_dd t, const double *y, const bool *asked,
+                       double *values, double *rates);
 
 /* The same for the moving set, at a state whose derivative dy is that of the modes in use. False if a
  * function is not affine. */

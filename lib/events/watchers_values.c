@@ -221,10 +221,12 @@ static enum needs needs_of(const struct watcher *watcher, const struct fbd_state
     return needs_forces;
 }
 
-static enum needs needs_of_set(const struct watcher_set *set, const struct fbd_state *state)
+static enum needs needs_of_set(const struct watcher_set *set, const struct fbd_state *state,
+                               const bool *asked)
 {
     enum needs most = state->model->names_places ? needs_flow : needs_motion;
     for (size_t i = 0; i < set->count && most < needs_forces; i++) {
+        if (asked && !asked[i]) continue;
         const enum needs own = needs_of(&set->watchers[i], state);
         if (own > most) most = own;
     }
@@ -272,8 +274,8 @@ static void set_flow(struct view *view, enum needs needs)
 }
 
 void watchers_evaluate(const struct watchers *watchers, const struct watcher_set *set,
-                       struct fbd_state *state, struct time_dd t, const double *y, double *values,
-                       double *rates)
+                       struct fbd_state *state, struct time_dd t, const double *y, const bool *asked,
+                       double *values, double *rates)
 {
     /* A quantity at rest at its switch, as an integral at its limit, may be short of it by the error of the
      * step that reached it. */
@@ -284,15 +286,20 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
                         .rest = t.rest,
                         .flow = {1, NULL},
                         .friction = -1};
-    if (set != &watchers->timed) set_flow(&view, needs_of_set(set, state));
+    if (set != &watchers->timed) set_flow(&view, needs_of_set(set, state, asked));
     int last_kink = -1;
     for (size_t i = 0; i < set->count; i++) {
         const struct watcher *watcher = &set->watchers[i];
-        assert(view.slots || set == &watchers->timed || needs_of(watcher, state) < needs_forces);
         if (watches_share(watcher, &view)) {
             values[i] = shared_value(&view, watcher, &rates[i]);
             continue;
         }
+        if (asked && !asked[i]) {
+            values[i] = HUGE_VAL;
+            rates[i] = 0;
+            continue;
+        }
+        assert(view.slots || set == &watchers->timed || needs_of(watcher, state) < needs_forces);
         switch (watcher->kind) {
         case watch_kink: {
             const struct kink *kink = &plan->kinks[watcher->index];

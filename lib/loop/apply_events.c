@@ -226,8 +226,8 @@ static bool is_just_lost(struct run *run, const bool *moving, int contact, doubl
     for (size_t i = 0; moving && i < set->count; i++) {
         if (!moving[i] || set->watchers[i].kind != watch_contact || set->watchers[i].index != contact)
             continue;
-        watchers_evaluate(&run->watchers, set, run->state, state_moment(run->state), run->state->y, values,
-                          rates);
+        watchers_evaluate(&run->watchers, set, run->state, state_moment(run->state), run->state->y, NULL,
+                          values, rates);
         return rates[i] < 0 && N <= slack - rates[i] * instant;
     }
     return false;
@@ -291,7 +291,8 @@ static void refuse_sliding(struct run *run, const bool *moving)
     if (!moving || run->end.outcome != FBD_GOING || !any_switch(set, moving)) return;
     if (memcmp(run->state->slip, run->during->slip, modes) != 0) return; /* other forces act now */
     double *values = run->work.values, *rate = values + set->count;
-    watchers_evaluate(&run->watchers, set, run->state, state_moment(run->state), run->state->y, values, rate);
+    watchers_evaluate(&run->watchers, set, run->state, state_moment(run->state), run->state->y, NULL, values,
+                      rate);
     for (size_t i = 0; i < set->count; i++) {
         const struct watcher *watcher = &set->watchers[i];
         if (!moving[i] || watcher->kind != watch_kink) continue;

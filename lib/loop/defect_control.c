@@ -59,8 +59,8 @@ static bool look_at_functions(struct run *run, double share, double h)
         memcpy(y, run->state->y, plan_size(&run->model->plan) * sizeof *y);
     else if (switcher_dense(run->stepper, time_dd_at(t), y) != GSL_SUCCESS)
         return false;
-    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, time_dd_at(t), y, run->work.values,
-                      run->work.values + run->watchers.moving.count);
+    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, time_dd_at(t), y, NULL,
+                      run->work.values, run->work.values + run->watchers.moving.count);
     return true;
 }
 

@@ -39,8 +39,8 @@ static void evaluate_at(struct run *run, double t)
 {
     double *values = run->work.values, *rates = values + run->search.moving.count;
     if (watchers_evaluate_affine(&run->watchers, run->work.y, run->work.f, values, rates)) return;
-    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, time_dd_at(t), run->work.y, values,
-                      rates);
+    watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, time_dd_at(t), run->work.y, NULL,
+                      values, rates);
 }
 
 /* Set the functions at t; returns the size of the lowest one that crosses, and the time until the first zero. */
@@ -301,8 +301,8 @@ static double time_to_brink(struct run *run, struct fbd_state *modes, double mos
 {
     const struct watcher_set *set = &run->watchers.moving;
     double longest = -1;
-    watchers_evaluate(&run->watchers, set, modes, state_moment(run->state), run->state->y, run->work.values,
-                      run->work.values + set->count);
+    watchers_evaluate(&run->watchers, set, modes, state_moment(run->state), run->state->y, NULL,
+                      run->work.values, run->work.values + set->count);
     for (size_t i = 0; i < set->count; i++) {
         double left = time_left(run, i);
         bool near = set->watchers[i].kind == watch_kink && left >= 0 && left <= most;

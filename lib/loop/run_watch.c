@@ -10,11 +10,11 @@
 #include "dynamics/world_refs.h"
 #include "loop/run.h"
 
-static int sample_timed(void *context, double t, double *values, double *rate)
+static int sample_timed(void *context, double t, const bool *asked, double *values, double *rate)
 {
     struct run *run = context;
-    watchers_evaluate(&run->watchers, &run->watchers.timed, run->during, time_dd_at(t), run->state->y, values,
-                      rate);
+    watchers_evaluate(&run->watchers, &run->watchers.timed, run->during, time_dd_at(t), run->state->y, asked,
+                      values, rate);
     return 0;
 }
 
@@ -66,12 +66,12 @@ static int sample_state(struct run *run, double t, double *y)
     return 0;
 }
 
-static int sample_moving(void *context, double t, double *values, double *rate)
+static int sample_moving(void *context, double t, const bool *asked, double *values, double *rate)
 {
     struct run *run = context;
     if (sample_state(run, t, run->work.sample)) return -1;
     watchers_evaluate(&run->watchers, &run->watchers.moving, run->during, time_dd_at(t), run->work.sample,
-                      values, rate);
+                      asked, values, rate);
     return 0;
 }
 
