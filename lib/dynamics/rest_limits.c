@@ -68,21 +68,20 @@ bool rest_find_bounds(struct rest_system *system)
 
 /* `slots` and `lambda` may be those of a column; without lambda those of the rows. */
 static double bound_value(const struct rest_system *system, const struct rest_bound *bound,
-                          const double *slots, size_t stride, const double *lambda, bool loads)
+                          const double *slots, const double *lambda, bool loads)
 {
     const struct fbd_model *model = system->state->model;
     const struct instant at = system->at;
-    if (bound->kind == bound_normal)
-        return -slots[(size_t)model->plan.contacts[bound->contact].slot * stride];
+    if (bound->kind == bound_normal) return -slots[model->plan.contacts[bound->contact].slot];
     const struct mode *mode = &model->plan.modes[bound->pair];
     if (bound->kind == bound_rope) {
         int row = model->tree->couplings[mode->coupling].first_row;
         return -(lambda ? lambda[row] : at.tree->rows[row].lambda);
     }
     double press = loads;
-    if (mode->normal_slot >= 0) press = -at.pull[bound->pair] * slots[(size_t)mode->normal_slot * stride];
+    if (mode->normal_slot >= 0) press = -at.pull[bound->pair] * slots[mode->normal_slot];
     if (bound->kind == bound_guide) return press;
-    double acceleration = 0, hold = -slots[(size_t)mode->hold_slot * stride];
+    double acceleration = 0, hold = -slots[mode->hold_slot];
     if (loads) friction_surface_speed(mode, &at, &acceleration);
     hold += mode->inertia * acceleration;
     return bound->mu * press + bound->side * hold;
@@ -119,7 +118,7 @@ struct rest_limit rest_limit_at(const struct rest_system *system, size_t index)
 void rest_read_bounds(const struct rest_system *system, double *values)
 {
     for (size_t i = 0; i < system->bound_count; i++)
-        values[i] = bound_value(system, &system->bounds[i], system->forces, 1, NULL, true);
+        values[i] = bound_value(system, &system->bounds[i], system->forces, NULL, true);
 }
 
 bool rest_bound_slopes(struct rest_system *system, double *G)
@@ -130,7 +129,8 @@ bool rest_bound_slopes(struct rest_system *system, double *G)
     for (size_t j = 0; j < m; j++) {
         unit[system->rows[j]] = 1;
         for (size_t i = 0; i < system->bound_count; i++) {
-            double one = bound_value(system, &system->bounds[i], system->columns + j, m, unit, false);
+            double one =
+                bound_value(system, &system->bounds[i], system->columns + j * system->slots, unit, false);
             if (one != 0) vector_add_multiple(G + i * d, system->basis + j * d, one, d);
         }
         unit[system->rows[j]] = 0;

@@ -34,9 +34,9 @@ static double *follow_null_vectors(struct rest_system *system)
 {
     size_t m = system->m, d = system->basis_count, count = system->reactions;
     double *rows = ARENA_ARRAY(system->arena, (count + system->bound_count) * d + 1, double);
-    for (size_t i = 0; rows && i < count; i++)
-        for (size_t j = 0; j < m; j++) {
-            double R = system->R[i * m + j];
+    for (size_t j = 0; rows && j < m; j++)
+        for (size_t i = 0; i < count; i++) {
+            double R = system->R[j * count + i];
             for (size_t k = 0; R != 0 && k < d; k++) rows[i * d + k] += R * system->basis[j * d + k];
         }
     return rows && rest_bound_slopes(system, rows + count * d) ? rows : NULL;

@@ -7,6 +7,7 @@
 
 #include "dynamics/friction.h"
 #include "dynamics/tree_system.h"
+#include "dynamics/world_refs.h"
 #include "numeric/least_distance.h"
 
 /* ---- scales with which zero is compared */
@@ -41,27 +42,29 @@ static bool find_sizes(struct rest_system *system)
 
 /* ---- the affine maps of lambda */
 
-static void read_reactions(const struct rest_system *system, const double *slots, double *r)
+static void read_reaction(const struct rest_system *system, int i, const double *slots, double *r)
 {
     const struct fbd_model *model = system->state->model;
-    const struct instant at = system->at;
-    for (int i = 1; i < model->tree->count; i++) {
-        const struct tree_link *link = &model->tree->links[i];
-        const struct tree_state *s = &system->state->tree->links[i];
-        const double *g = slots + link->coordinate;
-        double *own = r + 3 * (size_t)(i - 1);
-        own[0] = s->F.force.x;
-        own[1] = s->F.force.y;
-        own[2] = s->F.moment / system->length;
-        if (link_joint(link)->has_axis) own[2] -= g[0] / system->length;
-        if (link_joint(link)->path == path_none) continue;
-        const struct model_body *body = &model->bodies[link->body];
-        struct pose pose = body_pose(body, &at);
-        struct vec arm = vec_sub(s->p, point_motion(body, &pose, body->inertia.G).p);
-        own[0] = vec_dot(s->e, s->F.force) - g[0];
-        own[1] = vec_cross(s->e, s->F.force);
-        own[2] = (s->F.moment + vec_cross(arm, s->F.force)) / system->length;
-    }
+    const struct tree_link *link = &model->tree->links[i];
+    const struct tree_state *s = &system->state->tree->links[i];
+    const double *g = slots + link->coordinate;
+    double *own = r + 3 * (size_t)(i - 1);
+    own[0] = s->F.force.x;
+    own[1] = s->F.force.y;
+    own[2] = s->F.moment / system->length;
+    if (link_joint(link)->has_axis) own[2] -= g[0] / system->length;
+    if (link_joint(link)->path == path_none) return;
+    const struct model_body *body = &model->bodies[link->body];
+    struct pose pose = body_pose(body, &system->at);
+    struct vec arm = vec_sub(s->p, point_motion(body, &pose, body->inertia.G).p);
+    own[0] = vec_dot(s->e, s->F.force) - g[0];
+    own[1] = vec_cross(s->e, s->F.force);
+    own[2] = (s->F.moment + vec_cross(arm, s->F.force)) / system->length;
+}
+
+static void read_reactions(const struct rest_system *system, const double *slots, double *r)
+{
+    for (int i = 1; i < system->state->model->tree->count; i++) read_reaction(system, i, slots, r);
     for (size_t j = 0; j < system->m; j++)
         r[rest_entry_of_row(system, j)] = system->state->tree->rows[system->rows[j]].lambda;
 }
@@ -85,21 +88,34 @@ static void add_to_row(struct rest_system *system, size_t j, double step)
     add_rubbing(system, tree->couplings[index].resistance, step);
 }
 
+/* The forces by a unit multiplier of row j: they reach few links. */
+static void set_column(struct rest_system *system, const struct instant *at, size_t j)
+{
+    const struct tree *tree = system->state->model->tree;
+    double *slots = system->columns + j * system->slots, *r = system->R + j * system->reactions;
+    memset(slots, 0, system->slots * sizeof *slots);
+    memset(r, 0, system->reactions * sizeof *r);
+    add_to_row(system, j, 1);
+    rest_forces_of_row(system->state->model, at, system->rows[j], system->lambda, system->reached, slots,
+                       system->Q);
+    add_to_row(system, j, -1);
+    for (int i = 1; i < tree->count; i++) {
+        if (!system->reached[i]) continue;
+        read_reaction(system, i, slots, r);
+        const size_t first = (size_t)tree->links[i].coordinate;
+        const size_t end = first + (size_t)link_joint(&tree->links[i])->count;
+        for (size_t k = first; k < end; k++) system->E[k * system->m + j] = system->scale[k] * system->Q[k];
+    }
+    r[rest_entry_of_row(system, j)] = 1;
+}
+
 static void set_columns(struct rest_system *system)
 {
     const struct fbd_model *model = system->state->model;
-    double *Q = system->Q, *r = system->r, *slots = system->forces;
-    size_t bytes = (size_t)model->tree->row_count * sizeof *system->lambda;
-    for (size_t j = 0; j < system->m; j++) {
-        memset(system->lambda, 0, bytes);
-        add_to_row(system, j, 1);
-        rest_forces(model, &system->at, system->lambda, false, slots, Q);
-        read_reactions(system, slots, r);
-        for (size_t k = 0; k < system->n; k++) system->E[k * system->m + j] = system->scale[k] * Q[k];
-        for (size_t k = 0; k < system->slots; k++) system->columns[k * system->m + j] = slots[k];
-        for (size_t k = 0; k < system->reactions; k++) system->R[k * system->m + j] = r[k];
-    }
-    memset(system->lambda, 0, bytes);
+    if (system->m == 0) return;
+    const struct instant at = instant_extend(model, &system->at);
+    memset(system->lambda, 0, (size_t)model->tree->row_count * sizeof *system->lambda);
+    for (size_t j = 0; j < system->m; j++) set_column(system, &at, j);
 }
 
 static void add_to_lambda(struct rest_system *system, const double *step)
@@ -282,6 +298,7 @@ static bool allocate(struct rest_system *system, bool among_weak)
     system->reactions = m + 3 * (size_t)(tree ? tree->count - 1 : 0);
     system->held = ARENA_ARRAY(arena, n + 1, bool);
     system->scale = ARENA_ARRAY(arena, n + 1, double);
+    system->reached = ARENA_ARRAY(arena, (size_t)(tree ? tree->count : 0) + 1, bool);
     system->lambda = ARENA_ARRAY(arena, rows + 1, double);
     system->Q = ARENA_ARRAY(arena, n + 1, double);
     system->E = ARENA_ARRAY(arena, n * m + 1, double);
@@ -296,10 +313,13 @@ static bool allocate(struct rest_system *system, bool among_weak)
 static void set_scales(struct rest_system *system)
 {
     const struct coordinate *coordinates = system->state->model->scene->coordinates;
-    for (size_t k = 0; k < system->n; k++) {
-        system->held[k] = rest_holder(system->state->model, &system->at, (int)k) >= 0;
+    const struct plan *plan = &system->state->model->plan;
+    memset(system->held, false, system->n * sizeof *system->held);
+    for (size_t pair = 0; pair < plan->mode_count; pair++)
+        if (plan->modes[pair].coupling < 0 && system->at.slip[pair] == stick)
+            system->held[plan->modes[pair].coordinate] = true;
+    for (size_t k = 0; k < system->n; k++)
         system->scale[k] = system->held[k] ? 0 : coordinates[k].angle ? 1 / system->length : 1;
-    }
 }
 
 /* Set two-sided guides to the side of their normal force. True when that changes a slipping one, or with

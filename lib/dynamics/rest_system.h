@@ -48,7 +48,7 @@ struct rest_system {
     int *rows;                     /* m: their numbers */
     int *set;                      /* of each link: another one of its set, or itself (weak_sets) */
     const double *accelerations;   /* n */
-    bool *held;                    /* n */
+    bool *held, *reached;          /* n; tree.count: the links that the forces of a row reach */
     double *scale;                 /* n: 1, or one over the length for an angle; 0 if held */
     double *lambda;                /* row_count: the change from those of the base */
     struct rest_base {             /* the forces as the scene moves; at rest zero */
@@ -58,8 +58,8 @@ struct rest_system {
     } base;
     double *forces;           /* slots: with the present lambda */
     double *Q, *E;            /* n; n x m, scaled */
-    double *slots0, *columns; /* slots; slots x m */
-    double *r, *R;            /* reactions; reactions x m */
+    double *slots0, *columns; /* slots; m x slots */
+    double *r, *R;            /* reactions; m x reactions */
     double force, length;
     struct rest_bound *bounds;
     size_t bound_count;

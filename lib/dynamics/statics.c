@@ -30,6 +30,14 @@ static void add_ports(struct tree_work *work, int row_count, const double *lambd
     }
 }
 
+/* Set F of a link and pass it on to the link that it moves on. */
+static void pass_on(const struct tree *tree, struct tree_work *work, int i)
+{
+    struct tree_state *s = &work->links[i];
+    s->F = work->x[i].p;
+    wrench_add(&work->x[tree->links[i].parent].p, s->F, s->d);
+}
+
 static void transmit(const struct fbd_model *model, const struct instant *at, const double *lambda,
                      bool loads)
 {
@@ -44,11 +52,7 @@ static void transmit(const struct fbd_model *model, const struct instant *at, co
         if (tree->bulk_count > 0) tree_weights(tree, at);
     }
     add_ports(work, tree->row_count, lambda);
-    for (int i = tree->count - 1; i > 0; i--) {
-        struct tree_state *s = &work->links[i];
-        s->F = work->x[i].p;
-        wrench_add(&work->x[tree->links[i].parent].p, s->F, s->d);
-    }
+    for (int i = tree->count - 1; i > 0; i--) pass_on(tree, work, i);
     work->complete = true;
 }
 
@@ -62,18 +66,15 @@ static void leave_over(const struct tree_link *link, const struct tree_state *s,
         Q[link->coordinate + k] = slots[link->coordinate + k] - share[k];
 }
 
-/* Subtract the friction of moving surfaces; a moving bearing has a given moment. */
-static void add_slipping(const struct fbd_model *model, const struct instant *at, const double *slots,
-                         bool loads, double *Q)
+/* Subtract the friction of a moving surface; a moving bearing has a given moment. */
+static void add_slipping(const struct fbd_model *model, const struct instant *at, int pair,
+                         const double *slots, bool loads, double *Q)
 {
-    const struct plan *plan = &model->plan;
-    for (int pair = 0; pair < (int)plan->mode_count; pair++) {
-        const struct mode *mode = &plan->modes[pair];
-        int side = slip_side(at->slip[pair]);
-        if (mode->coupling >= 0 || side == 0) continue;
-        double press = mode->normal_slot >= 0 ? -at->pull[pair] * slots[mode->normal_slot] : loads;
-        Q[mode->coordinate] -= side * formula_value(&mode->mu_k, at) * press;
-    }
+    const struct mode *mode = &model->plan.modes[pair];
+    int side = slip_side(at->slip[pair]);
+    if (mode->coupling >= 0 || side == 0) return;
+    double press = mode->normal_slot >= 0 ? -at->pull[pair] * slots[mode->normal_slot] : loads;
+    Q[mode->coordinate] -= side * formula_value(&mode->mu_k, at) * press;
 }
 
 /* Bodies without joints to others: friction_at expects the friction force on a surface whose velocity
@@ -91,11 +92,9 @@ static void stand_still(const struct fbd_model *model, const struct instant *at,
 }
 
 /* The preload of a belt belongs to the loads. */
-static void drop_preloads(const struct tree *tree, double *slots)
+static void drop_preload(const struct coupling *coupling, double *slots)
 {
-    for (int i = 0; i < tree->coupling_count; i++)
-        for (int k = 0; k < tree->couplings[i].strands; k++)
-            slots[tree->couplings[i].slack_slot[k]] += tree->couplings[i].source->tension;
+    for (int k = 0; k < coupling->strands; k++) slots[coupling->slack_slot[k]] += coupling->source->tension;
 }
 
 void rest_forces(const struct fbd_model *model, const struct instant *given, const double *lambda, bool loads,
@@ -110,7 +109,58 @@ void rest_forces(const struct fbd_model *model, const struct instant *given, con
         leave_over(&model->tree->links[i], &at.tree->links[i], slots, Q);
     tree_slots(model, &at, slots);
     for (int i = model->tree->joined; i < model->tree->count; i++) tree_alone_slots(model, &at, i, slots);
-    if (!loads) drop_preloads(model->tree, slots);
-    add_slipping(model, &at, slots, loads, Q);
+    for (int i = 0; !loads && i < model->tree->coupling_count; i++)
+        drop_preload(&model->tree->couplings[i], slots);
+    for (int pair = 0; pair < (int)model->plan.mode_count; pair++)
+        add_slipping(model, &at, pair, slots, loads, Q);
     if (loads) stand_still(model, &at, slots);
+}
+
+/* ---- the forces of a single row */
+
+/* Flag the links from the ports of a row to the ground; returns the outermost of them. */
+static int reach(const struct tree *tree, const struct row *row, bool *reached)
+{
+    int outer = 0;
+    for (int k = 0; k < row->port_count; k++)
+        for (int i = row->ports[k].link; i > 0 && !reached[i]; i = tree->links[i].parent) {
+            reached[i] = true;
+            if (i > outer) outer = i;
+        }
+    return outer;
+}
+
+/* Apply the multipliers of a coupling. */
+static void push(const struct tree *tree, struct tree_work *work, int index, const double *lambda)
+{
+    const struct coupling *coupling = &tree->couplings[index];
+    for (int j = coupling->first_row; j < coupling->first_row + coupling->row_count; j++) {
+        work->rows[j].lambda = lambda[j];
+        if (lambda[j] != 0) row_apply(&work->rows[j], lambda[j], work->x);
+    }
+}
+
+void rest_forces_of_row(const struct fbd_model *model, const struct instant *at, int row,
+                        const double *lambda, bool *reached, double *slots, double *Q)
+{
+    const struct tree *tree = model->tree;
+    struct tree_work *work = at->tree;
+    const int index = tree->coupling_of_row[row], resistance = tree->couplings[index].resistance;
+    memset(reached, 0, (size_t)tree->count * sizeof *reached);
+    int outer = reach(tree, &work->rows[row], reached);
+    for (int i = outer; i > 0; i--)
+        if (reached[i]) work->x[i].p = (struct wrench){0, {0, 0}};
+    push(tree, work, index, lambda);
+    if (resistance >= 0) push(tree, work, resistance, lambda);
+    for (int i = outer; i > 0; i--)
+        if (reached[i]) pass_on(tree, work, i);
+    for (int i = outer; i > 0; i--) {
+        if (!reached[i]) continue;
+        leave_over(&tree->links[i], &work->links[i], slots, Q);
+        tree_link_slots(model, at, i, slots);
+        if (tree->links[i].pair >= 0) add_slipping(model, at, tree->links[i].pair, slots, false, Q);
+    }
+    tree_coupling_slots(model, at, index, slots);
+    if (resistance >= 0) tree_coupling_slots(model, at, resistance, slots);
+    drop_preload(&tree->couplings[index], slots);
 }

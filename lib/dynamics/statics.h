@@ -28,6 +28,12 @@ bool rest_begin(struct fbd_state *state);
 void rest_forces(const struct fbd_model *model, const struct instant *given, const double *lambda, bool loads,
                  double *slots, double *Q);
 
+/* The part of these forces that is due to a row, with the friction that its normal force has where it slips:
+ * `lambda` is zero for the rows of other couplings. Flags the links that it reaches, from its ports to the ground
+ * (tree.count of them), and sets F of these alone, their entries of slots and Q, and those of the coupling. */
+void rest_forces_of_row(const struct fbd_model *model, const struct instant *at, int row,
+                        const double *lambda, bool *reached, double *slots, double *Q);
+
 /* The sticking friction or drive that holds the coordinate, as the index of its mode, or -1. */
 int rest_holder(const struct fbd_model *model, const struct instant *at, int coordinate);
 

@@ -157,27 +157,31 @@ static void set_strands(const struct fbd_model *model, const struct tree_work *w
     for (int k = 0; k < 2; k++) slots[model->tree->couplings[index].slack_slot[k]] = -tension[k];
 }
 
+void tree_link_slots(const struct fbd_model *model, const struct instant *at, int i, double *slots)
+{
+    const struct tree_link *link = &model->tree->links[i];
+    const struct tree_state *s = &at->tree->links[i];
+    if (link->normal_slot >= 0)
+        slots[link->normal_slot] = -vec_dot(tree_normal(model->tree, at->tree, i), s->F.force);
+    if (link->pair >= 0)
+        slots[model->plan.modes[link->pair].hold_slot] = slots[link->coordinate] - joint_share(link, s, s->F);
+}
+
+void tree_coupling_slots(const struct fbd_model *model, const struct instant *at, int index, double *slots)
+{
+    const struct coupling *coupling = &model->tree->couplings[index];
+    const struct row *rows = at->tree->rows;
+    if (coupling->strands > 0) set_strands(model, at->tree, index, slots);
+    if (coupling_presses(coupling)) slots[coupling->normal_slot] = -rows[coupling->first_row].lambda;
+    if (coupling_rubs(coupling))
+        slots[model->plan.modes[coupling->pair].hold_slot] = -rows[coupling->along_row].lambda;
+}
+
 void tree_slots(const struct fbd_model *model, const struct instant *at, double *slots)
 {
     const struct tree *tree = model->tree;
-    struct tree_work *work = at->tree;
-    for (int k = 0; k < tree->joined_watched; k++) {
-        int i = tree->watched[k];
-        const struct tree_link *link = &tree->links[i];
-        const struct tree_state *s = &work->links[i];
-        if (link->normal_slot >= 0)
-            slots[link->normal_slot] = -vec_dot(tree_normal(tree, work, i), s->F.force);
-        if (link->pair < 0) continue;
-        slots[model->plan.modes[link->pair].hold_slot] = slots[link->coordinate] - joint_share(link, s, s->F);
-    }
-    for (int i = 0; i < tree->coupling_count; i++) {
-        const struct coupling *coupling = &tree->couplings[i];
-        if (coupling->strands > 0) set_strands(model, work, i, slots);
-        if (coupling_presses(coupling))
-            slots[coupling->normal_slot] = -work->rows[coupling->first_row].lambda;
-        if (coupling_rubs(coupling))
-            slots[model->plan.modes[coupling->pair].hold_slot] = -work->rows[coupling->along_row].lambda;
-    }
+    for (int k = 0; k < tree->joined_watched; k++) tree_link_slots(model, at, tree->watched[k], slots);
+    for (int i = 0; i < tree->coupling_count; i++) tree_coupling_slots(model, at, i, slots);
 }
 
 void tree_add_unit(const struct tree *tree, const struct tree_work *work, double *a)

@@ -159,6 +159,10 @@ void tree_complete(const struct fbd_model *model, struct tree_work *work);
  * a link that stands alone are set by tree_alone_slots. */
 void tree_slots(const struct fbd_model *model, const struct instant *at, double *slots);
 
+/* The slots of a link, and of a coupling, alone. */
+void tree_link_slots(const struct fbd_model *model, const struct instant *at, int i, double *slots);
+void tree_coupling_slots(const struct fbd_model *model, const struct instant *at, int index, double *slots);
+
 /* The variation of tree_accelerations along a direction, at the same instant and right after it. On entry
  * slots_along[n] are the variations of the generalized forces in the joints. */
 void tree_accelerations_along(const struct fbd_model *model, const struct instant *at,

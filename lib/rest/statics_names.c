@@ -20,7 +20,7 @@ static bool varies(const struct rest_system *system, size_t i)
     for (size_t k = 0; k < system->basis_count; k++) {
         double sum = 0;
         for (size_t j = 0; j < system->m; j++)
-            sum += system->R[i * system->m + j] * system->basis[j * system->basis_count + k];
+            sum += system->R[j * system->reactions + i] * system->basis[j * system->basis_count + k];
         most = fmax(most, fabs(sum));
     }
     return most > 1e-8; /* of the change of all reactions together, 1 */
