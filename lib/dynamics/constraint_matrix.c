@@ -232,6 +232,21 @@ static double entry(const struct fbd_model *model, const struct instant *at, int
     return tree_slip_share(model, at, link) * tree_normal_in(tree, at->tree, link) + (j == k);
 }
 
+/* Chain the active unknowns that act on a tree: an entry of place p is p times most_constraint_ends, plus the number
+ * of the tree among its own. */
+static void set_chains(const struct tree *tree, struct tree_work *work)
+{
+    for (int i = 0; i < tree->count; i++) work->newest[i] = -1;
+    for (int p = 0; p < work->count; p++) {
+        const int *roots;
+        int count = roots_of(tree, work->unknown_at[p], &roots);
+        for (int i = 0, entry = p * most_constraint_ends; i < count; i++, entry++) {
+            work->older[entry] = work->newest[roots[i]];
+            work->newest[roots[i]] = entry;
+        }
+    }
+}
+
 /* Number the active unknowns. Open contacts and slipping friction have no cost in the following. */
 static void set_places(const struct fbd_model *model, const struct instant *at)
 {
@@ -250,34 +265,40 @@ static void set_places(const struct fbd_model *model, const struct instant *at)
         work->place[k] = count;
         work->unknown_at[count] = k;
         work->first[count] = work->rank[tree->first[p]];
-        work->reach[count] = tree->reach[p];
         work->envelope[count] = size;
         size += (size_t)(count - work->first[count]);
         count++;
     }
-    work->rank[all] = count;
-    for (int r = 0; r < count; r++) work->reach[r] = work->rank[work->reach[r]];
     work->count = count;
     work->envelope_size = size;
+    set_chains(tree, work);
     work->placed = model->plan.mode_count == 0 && !tree->ends && tree->massless_count == 0;
 }
 
-/* By the accelerations for each unknown. Column p has entries in rows q whose envelope contains it, and in its
- * own envelope. */
+/* Set the entry in row q of column p, or in the upper part. */
+static void put(struct tree_work *work, int q, int p, double value)
+{
+    double *lower = work->whole, *upper = lower + work->envelope_size;
+    if (q < p) *system_entry(work, upper, p, q) = value;
+    if (q == p) work->diagonal[work->unknown_at[p]] = value;
+    if (q > p && work->first[q] <= p) *system_entry(work, lower, q, p) = value;
+}
+
+/* By the accelerations for each unknown. Column p has entries in the rows q that act on its trees. */
 static void assemble_columns(const struct fbd_model *model, const struct instant *at)
 {
+    const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
-    double *lower = work->whole, *upper = lower + work->envelope_size;
-    memset(work->mark, 0, (size_t)model->tree->count * sizeof *work->mark);
+    memset(work->mark, 0, (size_t)tree->count * sizeof *work->mark);
     for (int p = 0; p < work->count; p++) {
-        int k = work->unknown_at[p];
+        const int *roots, k = work->unknown_at[p];
+        int count = roots_of(tree, k, &roots);
         answer_unit(model, at, k);
-        for (int q = work->first[p]; q < work->reach[p]; q++) {
-            double value = entry(model, at, work->unknown_at[q], k);
-            if (q < p) *system_entry(work, upper, p, q) = value;
-            if (q == p) work->diagonal[k] = value;
-            if (q > p && work->first[q] <= p) *system_entry(work, lower, q, p) = value;
-        }
+        for (int i = 0; i < count; i++)
+            for (int next = work->newest[roots[i]]; next >= 0; next = work->older[next]) {
+                int q = next / most_constraint_ends;
+                put(work, q, p, entry(model, at, work->unknown_at[q], k));
+            }
     }
 }
 

@@ -56,7 +56,8 @@ size_t tree_work_size(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
     size_t links = (size_t)tree->count, unknowns = (size_t)tree_unknowns(tree);
-    size_t ints = (links + 6 * unknowns + (size_t)tree->coupling_count + 3) / 2 * 2;
+    size_t chains = links + most_constraint_ends * unknowns;
+    size_t ints = (links + 5 * unknowns + (size_t)tree->coupling_count + chains + 3) / 2 * 2;
     size_t link = sizeof(struct tree_state) + sizeof(struct tree_rhs) + sizeof(struct tree_variation);
     return links * link + sum_count(tree) * sizeof(struct tree_rhs) +
            bare_count(tree) * sizeof(struct tree_bare) + loop_count(model) * sizeof(struct tree_loop) +
@@ -104,11 +105,12 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     work->mark = behind;
     work->unknown_at = work->mark + links;
     work->first = work->unknown_at + unknowns;
-    work->reach = work->first + unknowns;
-    work->place = work->reach + unknowns;
+    work->place = work->first + unknowns;
     work->rank = work->place + unknowns;
-    work->push_end = work->rank + unknowns + 1;
+    work->push_end = work->rank + unknowns;
     work->acting = work->push_end + tree->row_count + 1;
+    work->newest = work->acting + tree->coupling_count;
+    work->older = work->newest + links;
     if (loop_count(model) > 0 && tree_loop_find(model, loop)) work->loop = loop;
     if (loops_size(model) > 0 && !work->loop) {
         work->loops = loops;

@@ -103,11 +103,12 @@ struct tree_work {
     int *push_end;            /* row_count + 1: after those of a place, the first at 1 */
     int *acting;              /* acting_count: couplings other than open contacts, in their order */
     int acting_count;
-    size_t *envelope;                /* of the active unknowns, see constraint_solve.c: */
-    int *unknown_at, *first, *reach; /* as in struct tree, which has them for all unknowns */
-    int *place;                      /* of an unknown, or -1 */
-    int *rank;                       /* unknowns + 1: number of active unknowns before a place of the tree */
-    int count;                       /* of active unknowns */
+    size_t *envelope;        /* of the active unknowns, see constraint_solve.c: */
+    int *unknown_at, *first; /* as in struct tree, which has them for all unknowns */
+    int *place;              /* of an unknown, or -1 */
+    int *rank;               /* unknowns: number of active unknowns before a place of the tree */
+    int count;               /* of active unknowns */
+    int *newest, *older;     /* chains of those that act on a tree: see constraint_matrix.c */
     size_t envelope_size;
     double *unit;                        /* n: accelerations that are added */
     double *a, *a_along;                 /* n: accelerations of the last force_balance, and their variation */

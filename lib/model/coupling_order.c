@@ -139,7 +139,7 @@ static void set_order(struct graph *graph, int *unknown_at)
 }
 
 /* Compute the envelope of the order in unknown_at. */
-static void set_envelope(struct graph *graph, struct tree *tree, int *group_of, int *lowest, int *highest)
+static void set_envelope(struct graph *graph, struct tree *tree, int *group_of, int *lowest)
 {
     int m = graph->unknowns + tree->massless_count, groups = graph->group_count + tree->massless_count;
     for (int g = 0; g < groups; g++)
@@ -150,18 +150,15 @@ static void set_envelope(struct graph *graph, struct tree *tree, int *group_of, 
         for (int i = 0; i < group->root_count; i++) {
             int root = group->roots[i];
             if (lowest[root] > p) lowest[root] = p;
-            highest[root] = p;
         }
     }
     tree->envelope_size = 0;
     for (int p = 0; p < m; p++) {
         const struct group *group = &graph->groups[group_of[tree->unknown_at[p]]];
         tree->first[p] = p;
-        tree->reach[p] = p + 1;
         for (int i = 0; i < group->root_count; i++) {
             int root = group->roots[i];
             if (lowest[root] < tree->first[p]) tree->first[p] = lowest[root];
-            if (highest[root] >= tree->reach[p]) tree->reach[p] = highest[root] + 1;
         }
         tree->envelope[p] = tree->envelope_size;
         tree->envelope_size += (size_t)(p - tree->first[p]);
@@ -173,7 +170,6 @@ static bool allocate(struct tree *tree, struct arena *arena, size_t m)
     tree->coupling_of_row = ARENA_ARRAY(arena, (size_t)tree->row_count, int);
     tree->unknown_at = ARENA_ARRAY(arena, m, int);
     tree->first = ARENA_ARRAY(arena, m, int);
-    tree->reach = ARENA_ARRAY(arena, m, int);
     tree->envelope = ARENA_ARRAY(arena, m, size_t);
     return !arena->failed;
 }
@@ -185,20 +181,19 @@ bool couplings_order(struct fbd_model *model)
     struct graph graph;
     int m = tree->row_count + tree->pair_count + tree->massless_count;
     if (!allocate(tree, arena, (size_t)m) || !make_graph(&graph, tree, arena)) return false;
-    int *group_of = ARENA_ARRAY(arena, (size_t)m, int), *lowest, *highest;
-    lowest = ARENA_ARRAY(arena, (size_t)tree->count, int);
-    highest = ARENA_ARRAY(arena, (size_t)tree->count, int);
+    int *group_of = ARENA_ARRAY(arena, (size_t)m, int);
+    int *lowest = ARENA_ARRAY(arena, (size_t)tree->count, int);
     if (arena->failed) return false;
     for (int i = 0; i < tree->coupling_count; i++)
         for (int k = 0; k < tree->couplings[i].row_count; k++)
             tree->coupling_of_row[tree->couplings[i].first_row + k] = i;
     for (int k = 0; k < m; k++) tree->unknown_at[k] = k;
-    set_envelope(&graph, tree, group_of, lowest, highest);
+    set_envelope(&graph, tree, group_of, lowest);
     size_t of_the_file = tree->envelope_size;
     set_order(&graph, tree->unknown_at);
-    set_envelope(&graph, tree, group_of, lowest, highest);
+    set_envelope(&graph, tree, group_of, lowest);
     if (tree->envelope_size < of_the_file) return true;
     for (int k = 0; k < m; k++) tree->unknown_at[k] = k;
-    set_envelope(&graph, tree, group_of, lowest, highest);
+    set_envelope(&graph, tree, group_of, lowest);
     return true;
 }

@@ -172,7 +172,7 @@ struct tree {
      * coordinates: */
     int *coupling_of_row; /* rows only */
     int *unknown_at;      /* the unknown at each elimination position */
-    int *first, *reach;   /* of a position: the first coupled one, and one past the last */
+    int *first;           /* of a position: the first coupled one */
     size_t *envelope;     /* start of the entries from first[p] to p */
     size_t envelope_size;
     int *bodies;      /* all, each after the one that it moves on */
