@@ -3,9 +3,8 @@
 // Forces and velocities as arrows, moments as arcs, and the overlay with their scales.
 
 function head(x, y, ux, uy, colour) {
-  path([[x, y], [x - 10 * ux - 4 * uy, y - 10 * uy + 4 * ux], [x - 10 * ux + 4 * uy, y - 10 * uy - 4 * ux]], true);
-  pen.fillStyle = colour;
-  pen.fill();
+  path([[x, y], [x - 11 * ux - 4.6 * uy, y - 11 * uy + 4.6 * ux], [x - 11 * ux + 4.6 * uy, y - 11 * uy - 4.6 * ux]], true);
+  fillWith(colour);
 }
 
 // The part of an arrow from a point of the canvas, `length` along [ux, uy], that lies on the canvas; an arrow from
@@ -60,7 +59,7 @@ function arrowTo(point, dx, dy, colour) {
   if (length < 6 && length < whole) return null;
   const x = from[0] + length * ux, y = from[1] + length * uy;
   path([from, [x - Math.min(8, length) * ux, y - Math.min(8, length) * uy]]);
-  strokeWith(colour, 2.2);
+  strokeWith(colour, 2.8);
   if (length < whole * (1 - 1e-9)) drawCut(from[0] + 0.45 * length * ux, from[1] + 0.45 * length * uy, ux, uy, colour);
   head(x, y, ux, uy, colour);
   avoidLine(from[0], from[1], x, y);
@@ -87,7 +86,7 @@ function drawCouple([x, y], couple, index, colour, key, text) {
   const start = -0.5 - 0.6 * index, end = start - sweep, way = sweep > 0 ? 1 : -1;
   pen.beginPath();
   pen.arc(x, y, radius, start, end, sweep > 0);
-  strokeWith(colour, 2.2);
+  strokeWith(colour, 2.8);
   const tip = [x + radius * Math.cos(end), y + radius * Math.sin(end)];
   head(tip[0] + 6 * way * Math.sin(end), tip[1] - 6 * way * Math.cos(end), way * Math.sin(end), -way * Math.cos(end), colour);
   if (text) wantLabel(key, text, ...tip, Math.cos(end), Math.sin(end), colour);

@@ -7,7 +7,7 @@ const plotWindow = { from: 0, to: 0, hover: null };
 
 // Colours of the curves, from the style sheet, which has others for dark paper.
 function palette(i) {
-  return getComputedStyle(document.documentElement).getPropertyValue(`--curve-${i % 8}`).trim();
+  return getComputedStyle(document.documentElement).getPropertyValue(`--curve-${i % curveCount}`).trim();
 }
 
 // The displayed unit, degrees for angles of coordinates and their rates if the page uses degrees, and its size.
