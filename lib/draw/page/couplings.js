@@ -155,7 +155,7 @@ function drawStillTies() {
       if (end.body >= 0 || coupling.kind === "roll" || coupling.kind === "slot") return;
       if (end.wound) drawDrum(x, y, end.radius);
       else if (coupling.kind === "rope" && last) hatch([x - 16, y], [x + 16, y], 0, -1);
-      if (coupling.kind === "rope" && !end.wound) dot(x, y, 3.5, view.colour.soft);
+      if (coupling.kind === "rope" && !end.wound) dot(x, y, 3.5, tone.soft);
       else if (!end.wound) drawBearing(x, y, 1);
     });
   }
@@ -163,7 +163,7 @@ function drawStillTies() {
 
 // A fixed disc of the ground.
 function drawDrum(x, y, radius) {
-  drawWheel(x, y, radius * view.scale, 0, view.colour.hatch);
+  drawWheel(x, y, radius * view.scale, 0, tone.hatch);
 }
 
 // ---- drawn under the bodies
@@ -182,7 +182,7 @@ function drawBoard(coupling, frame) {
     pen.moveTo(...low);
     pen.lineTo(...high);
   }
-  strokeWith(view.colour.edge, 1.2);
+  strokeWith(tone.edge, 1.2);
 }
 
 // Fill the area in a closed curve, as of a cam.
@@ -201,7 +201,7 @@ function drawTiesUnder(frames) {
 function drawPlate(points, body) {
   path(points, true);
   fillWith(tintOf(body));
-  strokeWith(view.colour.edge, 1.6);
+  strokeWith(tone.edge, 1.6);
 }
 
 // Draw a body without a shape: a wedge under a slide, the wheel of a gear, or a plate or bar through its joints.
@@ -215,7 +215,7 @@ function drawShapeless(body, frame) {
   } else if (body.joints.length > 1) {
     path(body.joints.map((point) => toScreen(place(frame, ...point))), true);
     pen.lineJoin = "round";
-    strokeWith(view.colour.edge, 9);
+    strokeWith(tone.edge, 9);
     fillWith(tintOf(body));
     strokeWith(tintOf(body), 6);
     pen.lineJoin = "miter";
@@ -252,14 +252,13 @@ function isSlack(coupling, t, row) {
 
 // Stroke the current path as a rope: dashed when slack, else with strands.
 function strokeRope(slack) {
-  strokeWith(view.colour.rope, slack ? 2 : 3, slack ? [5, 4] : []);
-  if (!slack) strokeWith(view.colour.strand, 1.2, [3, 3]);
+  strokeWith(tone.rope, slack ? 2 : 3, slack ? [5, 4] : []);
+  if (!slack) strokeWith(tone.strand, 1.2, [3, 3]);
 }
 
 // Draw the wound part of a rope as a full circle.
-function drawCoil([x, y], radius) {
-  pen.beginPath();
-  pen.arc(x, y, radius * view.scale, 0, 2 * Math.PI);
+function drawCoil(center, radius) {
+  disc(center, radius * view.scale);
   strokeRope(false);
 }
 
@@ -298,16 +297,15 @@ function drawBelt(coupling, frames) {
 function drawGear(coupling, frames) {
   for (const end of coupling.ends) {
     const frame = frames[end.body], [x, y] = toScreen(place(frame, ...end.point)), r = Math.abs(end.radius) * view.scale;
-    pen.beginPath();
-    pen.arc(x, y, r, 0, 2 * Math.PI);
-    strokeWith(view.colour.soft, 1.2, [9, 3, 2, 3]);
+    disc([x, y], r);
+    strokeWith(tone.soft, 1.2, [9, 3, 2, 3]);
     pen.beginPath();
     for (let k = 0; k < end.teeth; k++) {
       const angle = Math.atan2(frame.s, frame.c) + end.phase + 2 * Math.PI * k / end.teeth, c = Math.cos(angle), s = Math.sin(angle);
       pen.moveTo(x + (r - 4) * c, y - (r - 4) * s);
       pen.lineTo(x + (r + 3) * c, y - (r + 3) * s);
     }
-    strokeWith(view.colour.edge, 1.2);
+    strokeWith(tone.edge, 1.2);
   }
 }
 
@@ -315,17 +313,15 @@ function drawGear(coupling, frames) {
 function drawSlot(coupling, frames) {
   const frame = (end) => end.body < 0 ? null : frames[end.body], [pin, slot] = coupling.ends, on = frame(slot);
   path(coupling.points.map((point) => toScreen(on ? place(on, ...point) : point)));
-  strokeWith(view.colour.edge, 2);
-  const [x, y] = toScreen(couplingEnd(pin, (b) => frames[b]));
-  pen.beginPath();
-  pen.arc(x, y, Math.max(pin.radius * view.scale, 3.5), 0, 2 * Math.PI);
-  fillWith(view.colour.paper);
-  strokeWith(view.colour.edge, 1.4);
+  strokeWith(tone.edge, 2);
+  disc(toScreen(couplingEnd(pin, (b) => frames[b])), Math.max(pin.radius * view.scale, 3.5));
+  fillWith(tone.paper);
+  strokeWith(tone.edge, 1.4);
 }
 
 function drawPin([x, y]) {
-  dot(x, y, 3.5, view.colour.paper);
-  strokeWith(view.colour.edge, 1.4);
+  dot(x, y, 3.5, tone.paper);
+  strokeWith(tone.edge, 1.4);
 }
 
 function drawTiesOver(frames, t, row) {
@@ -338,7 +334,7 @@ function drawTiesOver(frames, t, row) {
     if (coupling.kind === "slot") drawSlot(coupling, frames);
     if (coupling.kind === "rod") {
       path(places());
-      strokeWith(view.colour.edge, 3);
+      strokeWith(tone.edge, 3);
       places().forEach(drawPin);
     }
   });

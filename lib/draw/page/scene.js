@@ -8,9 +8,13 @@ function path(points, closed) {
   if (closed) pen.closePath();
 }
 
-function dot(x, y, radius, colour) {
+function disc([x, y], radius) {
   pen.beginPath();
   pen.arc(x, y, radius, 0, 2 * Math.PI);
+}
+
+function dot(x, y, radius, colour) {
+  disc([x, y], radius);
   fillWith(colour);
 }
 
@@ -35,16 +39,16 @@ function hatch(from, to, nx, ny) {
   const ux = (to[0] - from[0]) / length, uy = (to[1] - from[1]) / length;
   const under = ([x, y]) => [x + hatchDepth * nx, y + hatchDepth * ny];
   path([from, to, under(to), under(from)], true);
-  fillWith(view.colour.ground);
+  fillWith(tone.ground);
   pen.beginPath();
   for (let d = 0; d < length; d += hatchStep) {
     const x = from[0] + d * ux, y = from[1] + d * uy;
     pen.moveTo(x, y);
     pen.lineTo(x + hatchDepth * (nx - 0.7 * ux), y + hatchDepth * (ny - 0.7 * uy));
   }
-  strokeWith(view.colour.hatch, 1.2);
+  strokeWith(tone.hatch, 1.2);
   path([from, to]);
-  strokeWith(view.colour.soft, 1.8);
+  strokeWith(tone.soft, 1.8);
 }
 
 // Fill polygons of the ground, hatched; an outline is drawn only where it is not inside another polygon.
@@ -52,19 +56,19 @@ function drawGround(polygons) {
   const all = polygons.map((corners) => corners.map(toScreen)), far = view.width + view.height;
   for (const corners of all) {
     path(corners, true);
-    strokeWith(view.colour.soft, 3.6);
+    strokeWith(tone.soft, 3.6);
   }
   for (const corners of all) {
     pen.save();
     path(corners, true);
-    fillWith(view.colour.ground);
+    fillWith(tone.ground);
     pen.clip();
     pen.beginPath();
     for (let d = 0; d < far; d += hatchStep) {
       pen.moveTo(d, 0);
       pen.lineTo(d - view.height, view.height);
     }
-    strokeWith(view.colour.hatch, 1);
+    strokeWith(tone.hatch, 1);
     pen.restore();
     const area = corners.reduce((sum, [x, y], i) => sum + x * corners.at(i - 1)[1] - y * corners.at(i - 1)[0], 0), outward = Math.sign(area);
     corners.forEach((to, i) => {
@@ -96,7 +100,7 @@ function drawShadow({ from, e, n, length }, body, frame) {
   if (length) [first, last] = [Math.max(first, 0), Math.min(last, length)];
   if (!(last > first) || !(strength > 0) || low < -8) return;
   const middle = (first + last) / 2;
-  pen.fillStyle = view.colour.shadow;
+  pen.fillStyle = tone.shadow;
   pen.globalAlpha = 0.16 * strength;
   for (const thick of [6, 3]) {
     pen.beginPath();
@@ -132,15 +136,15 @@ function drawLine(body) {
     drawSurface(through, along, normal, wedgeReach(body) * view.scale || reach * view.scale || view.block * 0.7);
   } else {
     path(acrossCanvas(through, along, normal, 0));
-    strokeWith(view.colour.line, 1, [6, 4]);
+    strokeWith(tone.line, 1, [6, 4]);
   }
 }
 
 // Draw the curve of a track in the frame of its carrier; on the ground (null) in the world.
 function drawTrack(body, frame) {
   path(body.track.points.map((point) => toScreen(frame ? place(frame, ...point) : point)));
-  strokeWith(view.colour.hatch, 6);
-  strokeWith(view.colour.soft, 1.8);
+  strokeWith(tone.hatch, 6);
+  strokeWith(tone.soft, 1.8);
 }
 
 function drawAxis(body) {
@@ -151,18 +155,18 @@ function drawAxis(body) {
 // Draw a bearing on ground below (d = 1) or above (-1).
 function drawBearing(x, y, d) {
   path([[x, y], [x - 9, y + 15 * d], [x + 9, y + 15 * d]], true);
-  fillWith(view.colour.paper);
-  strokeWith(view.colour.soft, 1.5);
+  fillWith(tone.paper);
+  strokeWith(tone.soft, 1.5);
   hatch([x - 18, y + 15 * d], [x + 18, y + 15 * d], 0, d);
 }
 
 function drawDamper(a, b, at) {
   path([at(0.72, 7), at(0.38, 7), at(0.38, -7), at(0.72, -7)]);
-  fillWith(view.colour.ground);
-  strokeWith(view.colour.edge, 1.6);
+  fillWith(tone.ground);
+  strokeWith(tone.edge, 1.6);
   for (const line of [[a, at(0.38, 0)], [at(0.55, 6), at(0.55, -6)], [at(0.55, 0), b]]) {
     path(line);
-    strokeWith(view.colour.edge, 2);
+    strokeWith(tone.edge, 2);
   }
 }
 
@@ -175,8 +179,8 @@ function drawSpring(a, b, at, length) {
   }
   path([...points, b]);
   pen.lineJoin = "round";
-  strokeWith(view.colour.edge, 3);
-  strokeWith(view.colour.line, 1);
+  strokeWith(tone.edge, 3);
+  strokeWith(tone.line, 1);
   pen.lineJoin = "miter";
 }
 
@@ -192,7 +196,7 @@ function drawLink(link, frames) {
     hatch([a[0] - wx, a[1] - wy], [a[0] + wx, a[1] + wy], -dx / length, -dy / length);
     return;
   }
-  dot(a[0], a[1], 3, view.colour.soft);
+  dot(a[0], a[1], 3, tone.soft);
 }
 
 function drawStill() {
@@ -201,7 +205,7 @@ function drawStill() {
   still.height = canvas.height;
   pen = still.getContext("2d");
   pen.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
-  pen.fillStyle = view.colour.paper;
+  pen.fillStyle = tone.paper;
   pen.fillRect(0, 0, view.width, view.height);
   const lines = new Set();
   view.grounds = [];
@@ -221,15 +225,14 @@ function drawStill() {
 
 // The colour of a body's area, or of the marks on it; its curves in the plots have the same hue.
 function tintOf(body, part = "tints") {
-  return view.colour[part][body.index % curveCount];
+  return tone[part][body.index % curveCount];
 }
 
 function drawWheel(x, y, outer, inner, colour) {
-  pen.beginPath();
-  pen.arc(x, y, outer, 0, 2 * Math.PI);
+  disc([x, y], outer);
   if (inner > 0) pen.arc(x, y, inner, 0, 2 * Math.PI, true);
   fillWith(colour);
-  strokeWith(view.colour.edge, 1.6);
+  strokeWith(tone.edge, 1.6);
 }
 
 // Darker sectors of a disc (two) or ring (eight), which turn with it.
@@ -247,26 +250,25 @@ function drawSectors(x, y, outer, inner, frame, colour) {
 
 function drawShape(body, frame, shape) {
   const at = (point) => toScreen(shapePoint(body, frame, point));
-  const [x, y] = at(shape.center), fill = shape.hole ? view.colour.paper : tintOf(body);
+  const [x, y] = at(shape.center), fill = shape.hole ? tone.paper : tintOf(body);
   if (shape.kind === "circle") {
     const outer = Math.max(shape.radius * view.scale, 4), inner = (shape.inner || 0) * view.scale;
     drawWheel(x, y, outer, inner, fill);
     if (!shape.hole && body.motion !== "particle") drawSectors(x, y, outer, inner, frame, tintOf(body, "marks"));
-    pen.beginPath();
-    pen.arc(x, y, outer, 0, 2 * Math.PI);
-    strokeWith(view.colour.edge, 1.6);
+    disc([x, y], outer);
+    strokeWith(tone.edge, 1.6);
   } else if (shape.kind === "polygon") {
     path(shape.corners.map(at), true);
     fillWith(fill);
-    strokeWith(view.colour.edge, 1.6);
+    strokeWith(tone.edge, 1.6);
   } else if (shape.kind === "bar") {
     path(shape.corners.map(at));
     pen.lineCap = "round";
-    strokeWith(view.colour.edge, 9);
+    strokeWith(tone.edge, 9);
     strokeWith(fill, 6);
     pen.lineCap = "butt";
   } else {
-    dot(x, y, 6, view.colour.edge);
+    dot(x, y, 6, tone.edge);
     dot(x, y, 4.4, tintOf(body, "marks"));
   }
 }
@@ -282,7 +284,7 @@ function drawBody(body, frame) {
     const axis = toScreen([frame.x, frame.y]);
     for (const shape of body.shapes) {
       path([axis, toScreen(shapePoint(body, frame, shape.center))]);
-      strokeWith(view.colour.edge, 1.4);
+      strokeWith(tone.edge, 1.4);
     }
   }
   if (!isSized(body) && body.board) return;
@@ -308,7 +310,7 @@ function drawTrace(body, t) {
   }
   points.push(toScreen(place(frameAt(body, t, rowAt(t)), ...point)));
   path(points);
-  strokeWith(view.colour.trace, 1.2, [4, 3]);
+  strokeWith(tone.trace, 1.2, [4, 3]);
 }
 
 // Draw everything at time t. shows: {forces, names, values, axes, velocity, trace, follow}; forces and names of

@@ -5,11 +5,13 @@
 // The scene is fitted together with its arrows. Their lengths are in pixels, so the scale is the largest one at which
 // every point and every tip, at all sampled times, lies on the canvas.
 
-const canvas = document.getElementById("scene");
+const canvas = element("scene");
 let pen = canvas.getContext("2d");
 const still = document.createElement("canvas"); // static parts, drawn once
 const view = { scale: 1, x: 0, y: 0, width: 0, height: 0, block: 0, force: 1, moment: 1, speed: 1, zoom: 1, pan: [0, 0], following: false, colour: {},
   grounds: [] };
+
+const tone = view.colour;
 
 // Pixels kept free: around, and below for the scales.
 const margin = 14, strip = 40;
@@ -286,9 +288,9 @@ function fit(size = [canvas.clientWidth, canvas.clientHeight], ratio = window.de
   canvas.height = Math.round(view.height * ratio);
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   const style = getComputedStyle(document.documentElement);
-  for (const name of colours) view.colour[name] = style.getPropertyValue("--" + name).trim();
-  const shades = (share) => Array.from({ length: curveCount }, (none, i) => mix(view.colour.body, view.colour[`curve-${i}`], share));
-  Object.assign(view.colour, { tints: shades(0.24), marks: shades(0.42) });
+  for (const name of colours) tone[name] = style.getPropertyValue("--" + name).trim();
+  const shades = (share) => Array.from({ length: curveCount }, (none, i) => mix(tone.body, tone[`curve-${i}`], share));
+  Object.assign(tone, { tints: shades(0.24), marks: shades(0.42) });
   aim();
 }
 
