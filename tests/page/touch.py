@@ -12,7 +12,7 @@ sys.path.insert(0, str(Path(os.environ["FBD_SOURCE_ROOT"]) / "tests/tools"))
 from browser import Browser, Missing  # noqa: E402
 from claims import claim, close, finish, skip  # noqa: E402
 from fbd import MODELS, SOURCE, run, table  # noqa: E402
-from paper import SETTLE, page_of  # noqa: E402
+from paper import CONTRAST, SETTLE, page_of  # noqa: E402
 
 INCLINE, STAIRS, CRANK = MODELS / "kinetics/incline.yaml", MODELS / "contact/stairs.yaml", MODELS / "couplings/slider_crank.yaml"
 PAGE = SOURCE / "lib/draw/page"
@@ -41,11 +41,14 @@ STRUCTURE = """
 const found = [], ids = [...document.querySelectorAll('[id]')].map((node) => node.id);
 if (new Set(ids).size !== ids.length) found.push('an id occurs twice');
 for (const node of document.querySelectorAll('section, aside, #scene, [role=img], [role=region]')) if (!node.getAttribute('aria-label')) found.push(`${node.id} has no name`);
+const regions = [...document.querySelectorAll('section, aside, [role=region]')].map((node) => node.getAttribute('aria-label'));
+if (new Set(regions).size !== regions.length) found.push('two regions have one name');
 for (const node of document.querySelectorAll('[aria-describedby]')) if (!document.getElementById(node.getAttribute('aria-describedby'))) found.push('described by nothing');
 if (document.querySelectorAll('h1').length !== 1 || document.querySelectorAll('main').length !== 1) found.push('not one h1 and one main');
 if (!document.documentElement.lang) found.push('no language');
 for (const node of document.querySelectorAll('[tabindex]')) if (node.tabIndex > 0) found.push(`${node.id} is before its turn`);
-for (const box of document.querySelectorAll('#equations, #events')) if (box.scrollHeight > box.clientHeight + 1 && box.tabIndex < 0 && !box.querySelector('button')) found.push(`keys do not scroll ${box.id}`);
+for (const box of document.querySelectorAll('#equations, #events, .formula'))
+  if ((box.scrollHeight > box.clientHeight + 1 || box.scrollWidth > box.clientWidth) && box.tabIndex < 0 && !box.querySelector('button')) found.push(`keys do not scroll ${box.id || box.textContent}`);
 return found;
 """
 
@@ -91,6 +94,11 @@ def check_arrows(browser, folder):
         close(float(numbers["x"]), row["block.friction"] * 3 ** 0.5 / 2, 1e-5 * size)
         close(float(numbers["work"]), browser.run("return readAt(run.bodies[0].arrows.find((a) => a.name === 'friction').work, 0.2, rowAt(0.2))"), 1e-4)
         assert float(numbers["work"]) < 0
+    for dark in (False, True):
+        browser.dark_mode(dark)
+        with claim(f"what is marked, and the numbers, stand out from what is behind them, {'dark' if dark else 'light'}"):
+            assert browser.run("return document.querySelectorAll('.lit').length") and (found := browser.run(SETTLE + CONTRAST)) == [], found
+    browser.dark_mode(False)
     with claim("its numbers follow the time, and Escape closes them"):
         browser.run("fbd.seek(2);")
         close(float(browser.run(CARD)[1]["magnitude"]), 4.81, 1e-5)

@@ -52,7 +52,7 @@ function connectEye() {
   });
   for (const kind of ["pointerup", "pointercancel"]) canvas.addEventListener(kind, (event) => fingers.delete(event.pointerId));
   // the canvas follows the size of its element
-  new ResizeObserver(() => { if (!paper.on) eyeOn(fit); }).observe(canvas);
+  new ResizeObserver(() => { if (!paper.on) { eyeOn(fit); reachFormulas(); } }).observe(canvas);
 }
 
 // ---- paper

@@ -167,10 +167,17 @@ function showTables(t) {
   for (const [text, value, format] of changing) write(text, (format || show)(value(t, row)));
 }
 
+// Formulas that are too long scroll, by keys as well.
+function reachFormulas() {
+  if (chosenBodies().length > fewBodies) return; // measuring very many takes long
+  for (const box of document.querySelectorAll(".formula")) box.tabIndex = box.scrollWidth > box.clientWidth ? 0 : -1;
+}
+
 function makeDetails(bodies) {
   makeCharts(bodies);
   makeTables(bodies);
   markTerms();
+  reachFormulas();
 }
 
 function showCost() {

@@ -45,6 +45,8 @@ function pick(key) {
   picked.shown = key;
   markTerms();
   const found = arrowBy(key), box = element("equations"), term = found && box.querySelector(`[data-arrow="${CSS.escape(key)}"]`);
+  const [x] = drawn.arrows.find((arrow) => arrow[5] === key) || [0];
+  element("card").className = x > view.width / 2 ? "left" : ""; // beside the arrow
   if (term) box.scrollTop += term.getBoundingClientRect().top - box.getBoundingClientRect().top - 40;
   element("said").textContent = found ? `${found.body.name}: ${arrowInWords(found.arrow, now(), rowAt(now()))}` : "";
   refresh();
