@@ -90,7 +90,7 @@ def check_print(browser, folder):
             close(line_slope(done.stdout), 30, 0.2)
     with claim("the curves of the plots are on paper, in their colours"):
         done = subprocess.run(["pdftoppm", "-r", "60", folder / "print.pdf"], capture_output=True, check=True)
-        blue = len(re.findall(rb"(?=(?:\x17|\x18|\x16)\x63\xa6)", done.stdout))
+        blue = len(re.findall(rb"(?=(?:\x45|\x46|\x47)\x64\x8c)", done.stdout))
         assert blue > 100, blue
     with claim("after printing the page is that of the screen again"):
         assert browser.run(SETTLE + UNFIT) == []

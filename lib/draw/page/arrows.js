@@ -3,9 +3,8 @@
 // Forces and velocities as arrows, moments as arcs, and the overlay with their scales.
 
 function head(x, y, ux, uy, colour) {
-  path([[x, y], [x - 10 * ux - 4 * uy, y - 10 * uy + 4 * ux], [x - 10 * ux + 4 * uy, y - 10 * uy - 4 * ux]], true);
-  pen.fillStyle = colour;
-  pen.fill();
+  path([[x, y], [x - 11 * ux - 4.6 * uy, y - 11 * uy + 4.6 * ux], [x - 11 * ux + 4.6 * uy, y - 11 * uy - 4.6 * ux]], true);
+  fillWith(colour);
 }
 
 // The part of an arrow from a point of the canvas, `length` along [ux, uy], that lies on the canvas; an arrow from
@@ -26,7 +25,7 @@ function drawCut(x, y, ux, uy, colour) {
   for (const along of [-2.5, 2.5]) {
     const cx = x + along * ux, cy = y + along * uy;
     path([[cx - 4 * uy - 1.5 * ux, cy + 4 * ux - 1.5 * uy], [cx + 4 * uy + 1.5 * ux, cy - 4 * ux + 1.5 * uy]]);
-    strokeWith(view.colour.paper, 3.4);
+    strokeWith(tone.paper, 3.4);
     strokeWith(colour, 1.2);
   }
 }
@@ -50,9 +49,19 @@ function stepAside(from, ux, uy, length) {
   return from;
 }
 
+// Stroke the current path of an arrow, stronger if it is the one that is pointed at or shown.
+function strokeArrow(colour, key) {
+  if (key && (key === picked.lit || key === picked.shown)) {
+    pen.globalAlpha = 0.3;
+    strokeWith(colour, 10);
+    pen.globalAlpha = 1;
+  }
+  strokeWith(colour, 2.8);
+}
+
 // Draw an arrow of [dx, dy] pixels; returns its tip, or null if it is too short to be seen. An arrow that exceeds the
 // canvas, or the largest length, is cut.
-function arrowTo(point, dx, dy, colour) {
+function arrowTo(point, dx, dy, colour, key) {
   const whole = Math.hypot(dx, dy);
   if (!(whole > 2)) return null;
   const ux = dx / whole, uy = dy / whole, from = stepAside(point, ux, uy, Math.min(whole, longestArrow()));
@@ -60,20 +69,24 @@ function arrowTo(point, dx, dy, colour) {
   if (length < 6 && length < whole) return null;
   const x = from[0] + length * ux, y = from[1] + length * uy;
   path([from, [x - Math.min(8, length) * ux, y - Math.min(8, length) * uy]]);
-  strokeWith(colour, 2.2);
+  strokeArrow(colour, key);
   if (length < whole * (1 - 1e-9)) drawCut(from[0] + 0.45 * length * ux, from[1] + 0.45 * length * uy, ux, uy, colour);
   head(x, y, ux, uy, colour);
   avoidLine(from[0], from[1], x, y);
-  drawn.arrows.push([from[0], from[1], x, y]);
+  drawn.arrows.push([from[0], from[1], x, y, false, key]);
   return [x, y];
 }
 
-function arrowColour(arrow) {
+// The name of an arrow's colour in the style sheet, the same in scene, equations and plots.
+function arrowHue(arrow) {
   const part = arrow.name.split(".").pop(); // the reaction on another body is called body.normal
-  if (part.startsWith("friction")) return view.colour.friction;
-  if (arrow.reaction || part === "normal") return view.colour.reaction;
-  if (arrow.name === "gravity") return view.colour.gravity;
-  return view.colour.applied;
+  if (part.startsWith("friction")) return "friction";
+  if (arrow.reaction || part === "normal") return "reaction";
+  return arrow.name === "gravity" ? "gravity" : "applied";
+}
+
+function arrowKey(body, arrow) {
+  return `${body.name}:${arrow.name}`;
 }
 
 function labelOf(name, value, units, shows) {
@@ -87,11 +100,11 @@ function drawCouple([x, y], couple, index, colour, key, text) {
   const start = -0.5 - 0.6 * index, end = start - sweep, way = sweep > 0 ? 1 : -1;
   pen.beginPath();
   pen.arc(x, y, radius, start, end, sweep > 0);
-  strokeWith(colour, 2.2);
+  strokeArrow(colour, key);
   const tip = [x + radius * Math.cos(end), y + radius * Math.sin(end)];
   head(tip[0] + 6 * way * Math.sin(end), tip[1] - 6 * way * Math.cos(end), way * Math.sin(end), -way * Math.cos(end), colour);
-  if (text) wantLabel(key, text, ...tip, Math.cos(end), Math.sin(end), colour);
-  drawn.arrows.push([x - radius, y - radius, x + radius, y + radius, true]);
+  if (text) wantLabel(`${key}:moment`, text, ...tip, Math.cos(end), Math.sin(end), colour);
+  drawn.arrows.push([x - radius, y - radius, x + radius, y + radius, true, key]);
   return true;
 }
 
@@ -99,13 +112,13 @@ function drawForces(body, frame, t, row, shows) {
   const length = pixelsPerForce(), labelled = shows.names || shows.values;
   let couples = 0;
   for (const arrow of body.arrows) {
-    const [fx, fy, px, py, couple] = arrow.arrow.map((c) => valueAt(c, t, row)), colour = arrowColour(arrow), key = `${body.name}:${arrow.name}`;
+    const [fx, fy, px, py, couple] = arrow.arrow.map((c) => valueAt(c, t, row)), colour = tone[arrowHue(arrow)], key = arrowKey(body, arrow);
     const size = Math.hypot(fx, fy), least = roundingOf(run.units.force), from = toScreen(place(frame, px, py));
-    const tip = size > least ? arrowTo(from, fx * length, -fy * length, colour) : null;
+    const tip = size > least ? arrowTo(from, fx * length, -fy * length, colour, key) : null;
     if (tip && labelled) wantLabel(key, labelOf(arrow.name, size, run.units.force, shows), ...tip, fx / size, -fy / size, colour);
     if (Math.abs(couple) <= roundingOf(run.units.moment)) continue;
     const text = labelled && labelOf(arrow.name, Math.abs(couple), run.units.moment, shows);
-    if (drawCouple(toScreen([frame.x, frame.y]), couple, couples, colour, `${key}:moment`, text)) couples++;
+    if (drawCouple(toScreen([frame.x, frame.y]), couple, couples, colour, key, text)) couples++;
   }
 }
 
@@ -113,9 +126,9 @@ function drawVelocity(body, frame, t, row, shows) {
   const [vx, vy] = velocityAt(body, t, row), speed = Math.hypot(vx, vy);
   if (!(speed > roundingOf(run.units.speed))) return;
   const length = arrowShare * Math.min(view.width, view.height) / view.speed;
-  const tip = arrowTo(toScreen(place(frame, ...body.G)), vx * length, -vy * length, view.colour.velocity);
+  const tip = arrowTo(toScreen(place(frame, ...body.G)), vx * length, -vy * length, tone.velocity);
   if (tip && (shows.names || shows.values))
-    wantLabel(`${body.name}:v`, labelOf("v", speed, run.units.speed, shows), ...tip, vx / speed, -vy / speed, view.colour.velocity);
+    wantLabel(`${body.name}:v`, labelOf("v", speed, run.units.speed, shows), ...tip, vx / speed, -vy / speed, tone.velocity);
 }
 
 // ---- axes, scales, angles
@@ -133,7 +146,7 @@ function plainText(text, x, y, colour, boxed = true) {
   pen.font = labelFont;
   pen.setLineDash([]);
   pen.lineWidth = 3;
-  pen.strokeStyle = view.colour.paper;
+  pen.strokeStyle = tone.paper;
   pen.strokeText(text, x, y);
   pen.fillStyle = colour;
   pen.fillText(text, x, y);
@@ -143,7 +156,7 @@ function plainText(text, x, y, colour, boxed = true) {
 
 // Draw the scales below the scene: a length, a force, a velocity; and the directions of x and y.
 function drawScales(shows) {
-  const y = view.height - 16, soft = view.colour.soft;
+  const y = view.height - 16, soft = tone.soft;
   let x = 16;
   path([[x, y - 18], [x, y], [x + 18, y]]);
   strokeWith(soft, 1.2);
@@ -174,23 +187,23 @@ function drawScales(shows) {
   };
   add(view.scale, run.units.length, soft, ruler);
   if (shows.forces && run.bodies.some((body) => body.arrows.length)) add(pixelsPerForce(), run.units.force, soft, arrow);
-  if (shows.velocity) add(arrowShare * Math.min(view.width, view.height) / view.speed, run.units.speed, view.colour.velocity, arrow);
+  if (shows.velocity) add(arrowShare * Math.min(view.width, view.height) / view.speed, run.units.speed, tone.velocity, arrow);
 }
 
 // Draw an arc from angle `from` by `sweep`, both as in the world, with its label.
 function drawAngle([x, y], from, sweep, radius, key, text) {
   path([[x, y], [x + (radius + 14) * Math.cos(from), y - (radius + 14) * Math.sin(from)]]);
-  strokeWith(view.colour.soft, 1, [4, 3]);
+  strokeWith(tone.soft, 1, [4, 3]);
   pen.beginPath();
   pen.arc(x, y, radius, -from, -from - sweep, sweep > 0);
-  strokeWith(view.colour.soft, 1.2);
+  strokeWith(tone.soft, 1.2);
   const end = from + sweep, way = sweep > 0 ? 1 : -1, tip = [x + radius * Math.cos(end), y - radius * Math.sin(end)];
   if (Math.abs(sweep) * radius > 12) {
     const turn = end - way * 5 / radius; // direction of the head: the chord of its arc
-    head(...tip, -way * Math.sin(turn), -way * Math.cos(turn), view.colour.soft);
+    head(...tip, -way * Math.sin(turn), -way * Math.cos(turn), tone.soft);
   }
   const middle = from + sweep / 2;
-  wantLabel(key, text, x + radius * Math.cos(middle), y - radius * Math.sin(middle), Math.cos(middle), -Math.sin(middle), view.colour.soft);
+  wantLabel(key, text, x + radius * Math.cos(middle), y - radius * Math.sin(middle), Math.cos(middle), -Math.sin(middle), tone.soft);
 }
 
 // Draw the angle of an inclined slide on the ground, at its low end on the canvas, once for each direction; and that of

@@ -5,9 +5,28 @@
 const charts = [];
 const plotWindow = { from: 0, to: 0, hover: null };
 
-// Colours of the curves, from the style sheet, which has others for dark paper.
-function palette(i) {
-  return getComputedStyle(document.documentElement).getPropertyValue(`--curve-${i % 8}`).trim();
+// The meaning of columns by colour: {hue: its name in the style sheet, key: of the arrow}. Coordinates have the hue of
+// their body, forces that of their arrow; curves of one hue in a plot have different dashes.
+const dashes = [[null, "solid"], [[8, 4], "dashed"], [[2, 3], "dotted"], [[9, 3, 2, 3], "double"]];
+const meanings = new Map();
+
+function findMeanings() {
+  meanings.clear();
+  for (const body of run.bodies) {
+    for (const c of [...body.coordinates, ...body.rates]) meanings.set(c, { hue: `curve-${body.index % curveCount}` });
+    for (const arrow of body.arrows) for (const c of arrow.force) meanings.set(c, { hue: arrowHue(arrow), key: arrowKey(body, arrow) });
+  }
+  ["velocity", "gravity", "applied", "reaction"].forEach((hue, i) => meanings.set(run.energy[i], { hue }));
+}
+
+// The looks of the curves of a plot: {hue, key, dash}.
+function curvesOf(columns) {
+  const all = columns.map((c, i) => meanings.get(c) || { hue: `curve-${i % curveCount}` });
+  return all.map((curve, i) => ({ ...curve, dash: dashes[all.slice(0, i).filter(({ hue }) => hue === curve.hue).length % dashes.length] }));
+}
+
+function coloursOf(spec) {
+  return curvesOf(spec.columns).map(({ hue }) => tone[hue]);
 }
 
 // The displayed unit, degrees for angles of coordinates and their rates if the page uses degrees, and its size.
@@ -29,14 +48,14 @@ function byUnit(title, columns, angles = false) {
 function chartSpecs(bodies) {
   const all = (member) => bodies.reduce((list, body) => list.concat(body[member]), []);
   const [kinetic, potential, work, residual] = run.energy;
-  let specs = [...byUnit("Coordinates", all("coordinates"), true), ...byUnit("Velocities", all("rates"), true)];
+  let specs = [...byUnit(phrase("coordinates"), all("coordinates"), true), ...byUnit(phrase("velocities"), all("rates"), true)];
   for (const body of bodies) {
     const columns = body.arrows.reduce((list, arrow) => list.concat(arrow.force), []);
-    specs = specs.concat(byUnit("Forces and moments on " + body.name, columns));
+    specs = specs.concat(byUnit(phrase("forces-on", body.name), columns));
   }
-  specs = specs.concat(byUnit("States", run.states));
-  specs.push({ title: "Energy", unit: run.units.energy, size: 1, columns: [kinetic, potential, work] });
-  specs.push({ title: "Energy residual", unit: run.units.energy, size: 1, columns: [residual] });
+  specs = specs.concat(byUnit(phrase("states"), run.states));
+  specs.push({ title: phrase("energy"), unit: run.units.energy, size: 1, columns: [kinetic, potential, work] });
+  specs.push({ title: phrase("residual"), unit: run.units.energy, size: 1, columns: [residual] });
   return specs;
 }
 
@@ -73,7 +92,7 @@ function drawMarks(context, area, graph) {
   const every = Math.ceil(display.length / 300);
   context.save();
   context.setLineDash([3, 3]);
-  context.strokeStyle = view.colour.soft;
+  context.strokeStyle = tone.soft;
   context.globalAlpha = 0.6;
   for (let k = 0; k < display.length; k += every) {
     const x = Math.round(graph.toDomXCoord(eventTimes[display[k]])) + 0.5;
@@ -106,53 +125,23 @@ function redrawCharts() {
   }
 }
 
-// Redraw the plots one after another, each in a task of its own, so that the scene and the user's input need not wait.
-// If new runs come faster than all plots are drawn, the plots take turns.
-const drawing = new MessageChannel();
-let drawnLast = 0;
-
-function redrawChartsSoon() {
-  for (const chart of charts) chart.stale = chart.graph !== null;
-  drawing.port2.postMessage(null);
-}
-
-drawing.port1.onmessage = () => {
-  const waits = ({ stale, unseen, box }) => stale && !unseen && box.open;
-  for (let k = 1; k <= charts.length; k++) {
-    const next = (drawnLast + k) % charts.length;
-    if (!waits(charts[next])) continue;
-    drawnLast = next;
-    redrawChart(charts[next]);
-    if (charts.some(waits)) drawing.port2.postMessage(null);
-    return;
-  }
-};
-
-// After another run: true if a folded plot is no longer empty, or an open one is; otherwise update the notes.
-function chartsAreOthers() {
-  const says = charts.map(({ spec }) => emptiness(spec));
-  if (charts.some(({ empty }, i) => Boolean(says[i]) !== empty)) return true;
-  charts.forEach(({ note }, i) => write(note, says[i] && ` ${says[i]}`));
-  return false;
-}
-
 // The note of an empty plot: its values are at round-off level or, for the residual, less than a billionth of the
 // energies.
 function emptiness(spec) {
   const most = Math.max(...spec.columns.map(sizeOf)), energies = Math.max(...run.energy.slice(0, 3).map(sizeOf));
-  if (spec.columns.every((c) => sizeOf(c) <= roundingOf(run.columns[c].u))) return "zero throughout";
+  if (spec.columns.every((c) => sizeOf(c) <= roundingOf(run.columns[c].u))) return phrase("zero-throughout");
   const residual = spec.columns.length === 1 && spec.columns[0] === run.energy[3];
-  return residual && most < 1e-9 * energies ? `at most ${show(most, 2)} ${unit(spec.unit)}, ${show(most / energies, 1)} of the energies` : "";
+  return residual && most < 1e-9 * energies ? phrase("of-energies", `${show(most, 2)} ${unit(spec.unit)}`, show(most / energies, 1)) : "";
 }
 
 // The name and value of a curve; a click hides or shows the curve.
-function legendItem(chart, c, i) {
-  const item = document.createElement("button"), text = document.createTextNode("");
-  item.type = "button";
-  item.style.color = `var(--curve-${i % 8})`;
+function legendItem(chart, { hue, key, dash }, i) {
+  const text = document.createTextNode(""), item = makeButton(text);
+  item.style.color = `var(--${hue})`;
+  item.style.borderBottomStyle = dash[1];
+  if (key) item.dataset.arrow = key;
   item.setAttribute("aria-pressed", "true");
-  item.title = "show or hide this curve";
-  item.append(text);
+  item.title = phrase("toggle-curve");
   item.addEventListener("click", () => {
     chart.hidden[i] = !chart.hidden[i];
     item.setAttribute("aria-pressed", String(!chart.hidden[i]));
@@ -162,17 +151,18 @@ function legendItem(chart, c, i) {
 }
 
 function makeGraph(chart) {
-  const { spec, holder } = chart;
+  const { spec, holder } = chart, curves = curvesOf(spec.columns), names = spec.columns.map((c) => run.columns[c].n);
   chart.graph = new Dygraph(holder, chartRows(spec.columns, plotWindow.from, plotWindow.to, spec.size), {
-    labels: ["t", ...spec.columns.map((c) => run.columns[c].n)],
-    colors: spec.columns.map((c, i) => palette(i)),
+    labels: ["t", ...names],
+    colors: coloursOf(spec),
+    series: Object.fromEntries(names.map((name, i) => [name, { strokePattern: curves[i].dash[0] }])),
     visibility: chart.hidden.map((hidden) => !hidden),
     dateWindow: [plotWindow.from, plotWindow.to],
     strokeWidth: 1.5,
     legend: "never",
     axisLabelWidth: 70,
-    gridLineColor: view.colour.line,
-    axisLineColor: view.colour.soft,
+    gridLineColor: tone.line,
+    axisLineColor: tone.soft,
     highlightCircleSize: 3,
     axes: { x: { axisLabelFormatter: (t) => show(t), valueFormatter: (t) => show(t) }, y: { axisLabelFormatter: (value) => show(value) } },
     underlayCallback: drawMarks,
@@ -185,24 +175,15 @@ function makeGraph(chart) {
 
 // A folded plot has no graph until it is opened.
 function makeChart(spec) {
-  const box = document.createElement("details"), title = document.createElement("summary"), legend = document.createElement("div");
-  const plot = document.createElement("div"), cursor = document.createElement("div"), holder = document.createElement("div"), empty = emptiness(spec);
-  box.className = "chart";
-  title.append(Object.assign(document.createElement("h2"), { textContent: `${spec.title} [${unit(spec.unit)}]` }));
-  const note = document.createTextNode(empty && ` ${empty}`), soft = document.createElement("span");
-  soft.className = "soft";
-  soft.append(note);
-  title.append(soft);
-  legend.className = "legend";
-  plot.className = "plot";
-  cursor.className = "cursor";
-  holder.className = "holder";
-  plot.append(holder, cursor);
-  box.append(title, legend, plot);
-  document.getElementById("charts").append(box);
+  const empty = emptiness(spec), note = document.createTextNode(empty && ` ${empty}`), title = make("h2", "", `${spec.title} [${unit(spec.unit)}]`);
+  const legend = make("div", "legend"), holder = make("div", "holder"), cursor = make("div", "cursor");
+  holder.setAttribute("role", "img");
+  holder.setAttribute("aria-label", spec.title);
+  const box = make("details", "chart", make("summary", "", title, note), legend, make("div", "plot", holder, cursor));
+  element("charts").append(box);
   const chart = { spec, holder, box, cursor, note, empty: empty !== "", graph: null, stale: false, hidden: spec.columns.map(() => false), unseen: false };
-  chart.values = spec.columns.map((c, i) => {
-    const [item, text] = legendItem(chart, c, i);
+  chart.values = curvesOf(spec.columns).map((curve, i) => {
+    const [item, text] = legendItem(chart, curve, i);
     legend.append(item);
     return text;
   });
@@ -231,7 +212,8 @@ function dropCharts() {
 function makeCharts(bodies) {
   dropCharts();
   charts.length = 0;
-  document.getElementById("charts").textContent = "";
+  element("charts").textContent = "";
+  findMeanings();
   chartSpecs(bodies).forEach(makeChart);
 }
 
@@ -239,7 +221,7 @@ function makeCharts(bodies) {
 function restyleCharts(ratio) {
   for (const { graph, spec, box } of charts) {
     if (!graph || !box.open) continue;
-    graph.updateOptions({ colors: spec.columns.map((c, i) => palette(i)), gridLineColor: view.colour.line, axisLineColor: view.colour.soft,
+    graph.updateOptions({ colors: coloursOf(spec), gridLineColor: tone.line, axisLineColor: tone.soft,
       pixelRatio: ratio }, true);
     graph.width_ = 0; // forces the graph to update its size
     graph.resize();

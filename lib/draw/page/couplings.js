@@ -136,7 +136,6 @@ function tiePoints(frameOf) {
     if (coupling.points) points.push(...coupling.points.map((p) => coupling.ends[1].body < 0 ? p : place(frameOf(coupling.ends[1].body), ...p)));
     if (coupling.span && coupling.ends[1].body >= 0) points.push(...lineEnds(coupling).map((p) => place(frameOf(coupling.ends[1].body), ...p)));
   }
-  for (const { corners } of run.surfaces) if (corners) points.push(...corners);
   run.bodies.forEach((body, i) => {
     for (const p of body.joints) points.push(place(frameOf(i), ...p));
     if (body.wedge) for (const p of wedgeCorners(body)) points.push(place(frameOf(i), ...p));
@@ -147,14 +146,8 @@ function tiePoints(frameOf) {
 // ---- static parts
 
 function drawStillTies() {
-  for (const { point, e, n, corners } of run.surfaces) {
-    if (!corners) {
-      drawSurface(point, e, n, 0);
-      continue;
-    }
-    path(corners.map((corner) => toScreen(corner)), true);
-    strokeWith(view.colour.line, 1.2);
-  }
+  for (const { point, e, n, corners } of run.surfaces) if (!corners) drawSurface(point, e, n, 0);
+  drawGround(run.surfaces.map(({ corners }) => corners).filter(Boolean));
   for (const coupling of run.couplings) {
     if (coupling.kind === "roll" && coupling.ends[1].body < 0) drawSurface(coupling.ends[1].point, coupling.e, coupling.n, 0);
     coupling.ends.forEach((end, k) => {
@@ -162,7 +155,7 @@ function drawStillTies() {
       if (end.body >= 0 || coupling.kind === "roll" || coupling.kind === "slot") return;
       if (end.wound) drawDrum(x, y, end.radius);
       else if (coupling.kind === "rope" && last) hatch([x - 16, y], [x + 16, y], 0, -1);
-      if (coupling.kind === "rope" && !end.wound) dot(x, y, 3.5, view.colour.soft);
+      if (coupling.kind === "rope" && !end.wound) dot(x, y, 3.5, tone.soft);
       else if (!end.wound) drawBearing(x, y, 1);
     });
   }
@@ -170,10 +163,7 @@ function drawStillTies() {
 
 // A fixed disc of the ground.
 function drawDrum(x, y, radius) {
-  pen.beginPath();
-  pen.arc(x, y, radius * view.scale, 0, 2 * Math.PI);
-  pen.fillStyle = view.colour.line;
-  pen.fill();
+  drawWheel(x, y, radius * view.scale, 0, tone.hatch);
 }
 
 // ---- drawn under the bodies
@@ -183,7 +173,7 @@ function drawBoard(coupling, frame) {
   const length = Math.hypot(b[0] - a[0], b[1] - a[1]) || 1, ux = (b[0] - a[0]) / length, uy = (b[1] - a[1]) / length;
   const way = -coupling.side, thick = Math.max(6, 0.25 * coupling.ends[0].radius * view.scale);
   const down = ([x, y], d) => [x + way * uy * d, y - way * ux * d];
-  drawPlate([a, b, down(b, thick), down(a, thick)]);
+  drawPlate([a, b, down(b, thick), down(a, thick)], run.bodies[coupling.ends[1].body]);
   if (coupling.kind !== "rack") return;
   const pitch = 2 * Math.PI * coupling.ends[0].radius * view.scale / 12;
   pen.beginPath();
@@ -192,39 +182,42 @@ function drawBoard(coupling, frame) {
     pen.moveTo(...low);
     pen.lineTo(...high);
   }
-  strokeWith(view.colour.edge, 1.2);
+  strokeWith(tone.edge, 1.2);
+}
+
+// Fill the area in a closed curve, as of a cam.
+function drawCam({ ends, points }, frame) {
+  const [x, y] = points[0], [endX, endY] = points[points.length - 1];
+  if (Math.hypot(endX - x, endY - y) * view.scale > 1) return;
+  path(points.map((point) => toScreen(place(frame, ...point))), true);
+  fillWith(tintOf(run.bodies[ends[1].body]));
 }
 
 function drawTiesUnder(frames) {
+  for (const coupling of run.couplings) if (coupling.points && coupling.ends[1].body >= 0) drawCam(coupling, frames[coupling.ends[1].body]);
   for (const coupling of run.couplings) if (coupling.span && coupling.ends[1].body >= 0) drawBoard(coupling, frames[coupling.ends[1].body]);
 }
 
-function drawPlate(points) {
+function drawPlate(points, body) {
   path(points, true);
-  pen.fillStyle = view.colour.body;
-  pen.fill();
-  strokeWith(view.colour.edge, 1.4);
+  fillWith(tintOf(body));
+  strokeWith(tone.edge, 1.6);
 }
 
 // Draw a body without a shape: a wedge under a slide, the wheel of a gear, or a plate or bar through its joints.
 function drawShapeless(body, frame) {
   if (body.wedge) {
-    drawPlate(wedgeCorners(body).map((point) => toScreen(place(frame, ...point))));
+    drawPlate(wedgeCorners(body).map((point) => toScreen(place(frame, ...point))), body);
   } else if (body.wheel) {
     const [x, y] = toScreen(place(frame, ...body.wheel.point)), r = body.wheel.radius * view.scale;
-    pen.beginPath();
-    pen.arc(x, y, r, 0, 2 * Math.PI);
-    pen.fillStyle = view.colour.body;
-    pen.fill();
-    path([[x, y], [x + r * frame.c, y - r * frame.s]]); // shows the rotation
-    strokeWith(view.colour.soft, 1.2);
+    drawWheel(x, y, r, 0, tintOf(body));
+    drawSectors(x, y, r, 0, frame, tintOf(body, "marks"));
   } else if (body.joints.length > 1) {
     path(body.joints.map((point) => toScreen(place(frame, ...point))), true);
     pen.lineJoin = "round";
-    strokeWith(view.colour.edge, 8);
-    pen.fillStyle = view.colour.body;
-    pen.fill();
-    strokeWith(view.colour.body, 5.4);
+    strokeWith(tone.edge, 9);
+    fillWith(tintOf(body));
+    strokeWith(tintOf(body), 6);
     pen.lineJoin = "miter";
   }
   return body.wedge || body.wheel || body.joints.length > 1;
@@ -257,27 +250,32 @@ function isSlack(coupling, t, row) {
   return coupling.force >= 0 && Math.hypot(valueAt(coupling.force, t, row), valueAt(coupling.force + 1, t, row)) < 1e-5 * view.force;
 }
 
+// Stroke the current path as a rope: dashed when slack, else with strands.
+function strokeRope(slack) {
+  strokeWith(tone.rope, slack ? 2 : 3, slack ? [5, 4] : []);
+  if (!slack) strokeWith(tone.strand, 1.2, [3, 3]);
+}
+
 // Draw the wound part of a rope as a full circle.
-function drawCoil([x, y], radius) {
-  pen.beginPath();
-  pen.arc(x, y, radius * view.scale, 0, 2 * Math.PI);
-  strokeWith(view.colour.rope, 1.8);
+function drawCoil(center, radius) {
+  disc(center, radius * view.scale);
+  strokeRope(false);
 }
 
 // Draw one part of a rope from pulley to pulley, and its arc on the pulley where the previous part ends.
 function drawRope(coupling, before, frames, t, row) {
   const places = coupling.ends.map((end) => couplingEnd(end, (b) => frames[b])), ways = coupling.ends.map((end) => end.side * end.radius);
-  const slack = isSlack(coupling, t, row), dash = slack ? [5, 4] : [], points = [];
+  const slack = isSlack(coupling, t, row), points = [];
   for (let k = 0; k + 1 < places.length; k++) points.push(...straightPiece(places[k], places[k + 1], ways[k], ways[k + 1]));
   if (slack && points.length === 2 && !ways[0] && !ways[1]) hangLoose(points, coupling.length);
   else path(points.map(toScreen));
-  strokeWith(view.colour.rope, 1.8, dash);
+  strokeRope(slack);
   const first = coupling.ends[0];
   if (first.radius > 0 && before && before.name === coupling.name) {
     const angle = ([x, y]) => -Math.atan2(y - places[0][1], x - places[0][0]);
     pen.beginPath();
     pen.arc(...toScreen(places[0]), first.radius * view.scale, angle(before.reached), angle(points[0]), first.side > 0);
-    strokeWith(view.colour.rope, 1.8, dash);
+    strokeRope(slack);
   }
   coupling.ends.forEach((end, k) => {
     if (end.wound) drawCoil(toScreen(places[k]), end.radius);
@@ -288,10 +286,10 @@ function drawRope(coupling, before, frames, t, row) {
 // Draw both strands, and the belt all around its discs.
 function drawBelt(coupling, frames) {
   const [a, b] = coupling.ends.map((end) => couplingEnd(end, (body) => frames[body])), [sA, sB] = coupling.ends.map((end) => end.side * end.radius);
-  path(straightPiece(a, b, sA, sB).map(toScreen));
-  strokeWith(view.colour.rope, 2.4);
-  path(straightPiece(b, a, sB, sA).map(toScreen));
-  strokeWith(view.colour.rope, 2.4);
+  for (const strand of [straightPiece(a, b, sA, sB), straightPiece(b, a, sB, sA)]) {
+    path(strand.map(toScreen));
+    strokeRope(false);
+  }
   coupling.ends.forEach((end, k) => drawCoil(toScreen(k ? b : a), end.radius));
 }
 
@@ -299,16 +297,15 @@ function drawBelt(coupling, frames) {
 function drawGear(coupling, frames) {
   for (const end of coupling.ends) {
     const frame = frames[end.body], [x, y] = toScreen(place(frame, ...end.point)), r = Math.abs(end.radius) * view.scale;
-    pen.beginPath();
-    pen.arc(x, y, r, 0, 2 * Math.PI);
-    strokeWith(view.colour.soft, 1.2, [9, 3, 2, 3]);
+    disc([x, y], r);
+    strokeWith(tone.soft, 1.2, [9, 3, 2, 3]);
     pen.beginPath();
     for (let k = 0; k < end.teeth; k++) {
       const angle = Math.atan2(frame.s, frame.c) + end.phase + 2 * Math.PI * k / end.teeth, c = Math.cos(angle), s = Math.sin(angle);
       pen.moveTo(x + (r - 4) * c, y - (r - 4) * s);
       pen.lineTo(x + (r + 3) * c, y - (r + 3) * s);
     }
-    strokeWith(view.colour.edge, 1.2);
+    strokeWith(tone.edge, 1.2);
   }
 }
 
@@ -316,18 +313,15 @@ function drawGear(coupling, frames) {
 function drawSlot(coupling, frames) {
   const frame = (end) => end.body < 0 ? null : frames[end.body], [pin, slot] = coupling.ends, on = frame(slot);
   path(coupling.points.map((point) => toScreen(on ? place(on, ...point) : point)));
-  strokeWith(view.colour.edge, 2);
-  const [x, y] = toScreen(couplingEnd(pin, (b) => frames[b]));
-  pen.beginPath();
-  pen.arc(x, y, Math.max(pin.radius * view.scale, 3.5), 0, 2 * Math.PI);
-  pen.fillStyle = view.colour.paper;
-  pen.fill();
-  strokeWith(view.colour.edge, 1.4);
+  strokeWith(tone.edge, 2);
+  disc(toScreen(couplingEnd(pin, (b) => frames[b])), Math.max(pin.radius * view.scale, 3.5));
+  fillWith(tone.paper);
+  strokeWith(tone.edge, 1.4);
 }
 
 function drawPin([x, y]) {
-  dot(x, y, 3.5, view.colour.paper);
-  strokeWith(view.colour.edge, 1.4);
+  dot(x, y, 3.5, tone.paper);
+  strokeWith(tone.edge, 1.4);
 }
 
 function drawTiesOver(frames, t, row) {
@@ -340,7 +334,7 @@ function drawTiesOver(frames, t, row) {
     if (coupling.kind === "slot") drawSlot(coupling, frames);
     if (coupling.kind === "rod") {
       path(places());
-      strokeWith(view.colour.edge, 2.4);
+      strokeWith(tone.edge, 3);
       places().forEach(drawPin);
     }
   });

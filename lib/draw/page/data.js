@@ -24,7 +24,8 @@ function takeRun(data) {
     if (column.of !== undefined) column.noise = Math.abs(column.a) * (run.columns[column.of].f === undefined ? 4e-16 : 6e-8);
   });
   // a column whose rate is another column is interpolated with its slopes
-  run.bodies.forEach((body) => {
+  run.bodies.forEach((body, index) => {
+    body.index = index;
     body.coordinates.forEach((c, k) => { run.columns[c].slope = body.rates[k]; });
     body.rates.forEach((c, k) => { run.columns[c].slope = body.accelerations[k]; });
   });

@@ -9,10 +9,14 @@ function eyeOn(change) {
 
 const zoomStep = 1.25;
 const fingers = new Map(); // pointers that are down: id -> [x, y]
+let pressed = null; // the start of a press by one pointer
 
 function movePointer(event) {
   const before = fingers.get(event.pointerId), at = [event.offsetX, event.offsetY];
-  if (!before) return;
+  if (!before) {
+    if (event.pointerType === "mouse") light(arrowAt(at, 8));
+    return;
+  }
   const others = [...fingers].filter(([id]) => id !== event.pointerId).map(([, where]) => where);
   fingers.set(event.pointerId, at);
   if (!others.length) {
@@ -26,9 +30,9 @@ function movePointer(event) {
 
 function connectEye() {
   const middle = () => [view.width / 2, (view.height - strip) / 2];
-  element("zoom-in").addEventListener("click", () => eyeOn(() => zoomBy(zoomStep, middle())));
-  element("zoom-out").addEventListener("click", () => eyeOn(() => zoomBy(1 / zoomStep, middle())));
-  element("zoom-all").addEventListener("click", () => { element("follow").checked = false; eyeOn(showWhole); });
+  listen("zoom-in", "click", () => eyeOn(() => zoomBy(zoomStep, middle())));
+  listen("zoom-out", "click", () => eyeOn(() => zoomBy(1 / zoomStep, middle())));
+  listen("zoom-all", "click", () => { element("follow").checked = false; eyeOn(showWhole); });
   canvas.addEventListener("dblclick", () => eyeOn(showWhole));
   // the wheel without a modifier scrolls the page, unless the scene has the focus
   canvas.addEventListener("wheel", (event) => {
@@ -37,13 +41,18 @@ function connectEye() {
     eyeOn(() => zoomBy(Math.exp(-event.deltaY / 400), [event.offsetX, event.offsetY]));
   }, { passive: false });
   canvas.addEventListener("pointerdown", (event) => {
+    pressed = fingers.size ? null : [event.offsetX, event.offsetY];
     fingers.set(event.pointerId, [event.offsetX, event.offsetY]);
     canvas.setPointerCapture(event.pointerId);
   });
   canvas.addEventListener("pointermove", movePointer);
+  canvas.addEventListener("pointerup", (event) => {
+    // a tap: the pointer has hardly moved
+    if (pressed && Math.hypot(event.offsetX - pressed[0], event.offsetY - pressed[1]) < 6) pick(arrowAt(pressed, event.pointerType === "mouse" ? 8 : 24));
+  });
   for (const kind of ["pointerup", "pointercancel"]) canvas.addEventListener(kind, (event) => fingers.delete(event.pointerId));
   // the canvas follows the size of its element
-  new ResizeObserver(() => { if (!paper.on) eyeOn(fit); }).observe(canvas);
+  new ResizeObserver(() => { if (!paper.on) { eyeOn(fit); reachFormulas(); } }).observe(canvas);
 }
 
 // ---- paper

@@ -99,7 +99,7 @@ function writeLabel(label, box, ring) {
   const y = (box.top + box.bottom) / 2;
   if (ring > 1) {
     path([[label.x, label.y], [Math.min(Math.max(label.x, box.left), box.right), Math.min(Math.max(label.y, box.top), box.bottom)]]);
-    strokeWith(view.colour.soft, 0.8);
+    strokeWith(tone.soft, 0.8);
   }
   pen.font = labelFont;
   pen.textAlign = "left";
@@ -107,7 +107,7 @@ function writeLabel(label, box, ring) {
   pen.lineJoin = "round";
   pen.lineWidth = 3;
   pen.setLineDash([]);
-  pen.strokeStyle = view.colour.paper;
+  pen.strokeStyle = tone.paper;
   pen.strokeText(label.text, box.left, y + 1);
   pen.fillStyle = label.colour;
   pen.fillText(label.text, box.left, y + 1);

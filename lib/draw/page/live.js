@@ -3,7 +3,7 @@
 // A page that `fbd-run --watch` rewrites calls fbd.live(stamp) at its end. It then polls PAGE.stamp.js, which calls
 // fbd.stamp with the stamp of the last run, and reloads if that differs, keeping time and view.
 
-const liveChoices = ["show-forces", "show-names", "show-values", "show-axes", "show-velocity", "show-trace", "follow", "loop"];
+const liveChoices = [...choices.map((name) => `show-${name}`), "follow", "loop"];
 const live = { own: "", asking: 0, place: `fbd ${location.pathname}` };
 
 function liveKept() {
@@ -12,7 +12,7 @@ function liveKept() {
 
 function keepView(stamp) {
   const whole = plotWindow.from === run.start && plotWindow.to === run.end;
-  const kept = { stamp, t: player.t, playing: player.playing, speed: player.speed, body: chosenBody() === null ? null : chosenBodies()[0].name,
+  const kept = { stamp, t: player.t, playing: player.playing, speed: player.speed, language, body: chosenBody() === null ? null : chosenBodies()[0].name,
     shows: liveChoices.map((id) => element(id).checked), zoom: whole ? null : [plotWindow.from, plotWindow.to], scroll: scrollY };
   try { sessionStorage.setItem(live.place, JSON.stringify(kept)); } catch { return false; }
   return true;
@@ -26,6 +26,7 @@ function takeView(kept) {
   liveChoices.forEach((id, i) => { element(id).checked = kept.shows[i]; });
   fit();
   if (kept.zoom) setWindow(Math.max(kept.zoom[0], run.start), Math.min(kept.zoom[1], run.end));
+  changeLanguage(kept.language);
   setSpeed(kept.speed);
   seek(kept.t);
   setPlaying(kept.playing);

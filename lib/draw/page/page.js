@@ -28,9 +28,9 @@ function chosenBodies() {
 
 // ---- tables
 
-function addRow(table, cells, css) {
+function addRow(table, cells, css = "") {
   const row = table.insertRow();
-  if (css) row.className = css;
+  row.className = css;
   for (const [text, number] of cells) {
     const td = row.insertCell();
     td.append(text);
@@ -41,8 +41,18 @@ function addRow(table, cells, css) {
 
 // A row with a time-dependent number: value(t, row).
 function addChanging(table, label, value, units, css) {
-  const number = addRow(table, [[label], ["", true], [units]], css).cells[1];
-  changing.push([number.appendChild(document.createTextNode("")), value]);
+  const row = addRow(table, [[label], ["", true], [units]], css);
+  changing.push([row.cells[1].appendChild(document.createTextNode("")), value]);
+  return row;
+}
+
+// Give a term of an equation the colour of its arrow, and let it be found by that.
+function markTerm(node, equation, name) {
+  const found = arrowBy(`${equation.body}:${name}`);
+  if (!found) return node;
+  node.setAttribute("data-arrow", arrowKey(found.body, found.arrow));
+  node.style.color = `var(--${arrowHue(found.arrow)})`;
+  return node;
 }
 
 function valueIn(index) {
@@ -85,10 +95,10 @@ function inSymbols(equation) {
   const terms = writtenTerms(equation);
   if (!equation.left) return null;
   const row = math("mrow", ...mathOf(equation.left), math("mo", "="));
-  terms.forEach(([, , symbol], i) => {
+  terms.forEach(([name, , symbol], i) => {
     const negative = symbol.startsWith("-");
     if (i || negative) row.append(termSign(i === 0, negative ? "−" : "+"));
-    row.append(...mathOf(negative ? symbol.slice(1) : symbol));
+    row.append(markTerm(math("mrow", ...mathOf(negative ? symbol.slice(1) : symbol)), equation, name));
   });
   if (!terms.length) row.append(math("mn", "0"));
   return mathLine(row);
@@ -106,10 +116,10 @@ function inNumbers(equation) {
   row.append(number(inertiaIn(equation), (value) => show(value, 4)), upright(equation.inertiaUnit), math("mo", "·"), math("mo", "("),
     number(valueIn(equation.acceleration), (value) => show(value, 4)), upright(equation.accelerationUnit), math("mo", ")"), math("mo", "="));
   const terms = writtenTerms(equation);
-  terms.forEach(([, index], i) => {
+  terms.forEach(([name, index], i) => {
     const sign = document.createTextNode("");
     changing.push([sign, valueIn(index), (value) => (value < 0 ? "−" : i ? "+" : "")]);
-    row.append(termSign(i === 0, sign), number(valueIn(index), (value) => show(Math.abs(value), 4)));
+    row.append(termSign(i === 0, sign), markTerm(number(valueIn(index), (value) => show(Math.abs(value), 4)), equation, name));
   });
   if (!terms.length) row.append(math("mn", "0"));
   row.append(upright(equation.unit));
@@ -118,13 +128,12 @@ function inNumbers(equation) {
 
 // One equation: the terms, their sum, the inertia and the acceleration.
 function equationTable(equation) {
-  const box = document.createElement("div"), table = document.createElement("table"), units = unit(equation.unit);
-  const symbols = inSymbols(equation), name = Object.assign(document.createElement("div"), { className: "name", textContent: quantity(equation.name) });
-  box.append(name);
+  const table = make("table", ""), units = unit(equation.unit), symbols = inSymbols(equation);
+  const box = make("div", "", make("div", "name", quantity(equation.name)));
   if (symbols) box.append(symbols, inNumbers(equation));
   else box.append(mathLine(math("mrow", ...mathOf(`${equation.inertia} ${equation.accelerationName}`), math("mo", "="), math("mo", "∑"))));
-  for (const [term, index] of equation.terms) addChanging(table, term, valueIn(index), units);
-  addChanging(table, "sum", (t, row) => sumOf(equation.terms, t, row), units, "sum");
+  for (const [term, index] of equation.terms) markTerm(addChanging(table, term, valueIn(index), units), equation, term);
+  addChanging(table, phrase("sum"), (t, row) => sumOf(equation.terms, t, row), units, "sum");
   addChanging(table, inMath(equation.inertia), inertiaIn(equation), unit(equation.inertiaUnit));
   addChanging(table, inMath(equation.accelerationName), valueIn(equation.acceleration), unit(equation.accelerationUnit));
   box.append(table);
@@ -134,22 +143,21 @@ function equationTable(equation) {
 // The acceleration of G in terms of those of the coordinates.
 function kinematicLines(body) {
   if (body.kinematics.length === 0) return [];
-  const box = document.createElement("div");
-  box.append(Object.assign(document.createElement("div"), { className: "name", textContent: `${body.name}: a of G` }));
-  for (const line of body.kinematics) box.append(mathLine(math("mrow", ...mathOf(line))));
-  return [box];
+  const lines = body.kinematics.map((line) => mathLine(math("mrow", ...mathOf(line))));
+  return [make("div", "", make("div", "name", phrase("acceleration-of", body.name)), ...lines)];
 }
 
 function makeTables(bodies) {
   changing.length = 0;
-  element("equations").replaceChildren(...bodies.flatMap((body) => [...body.equations.map(equationTable), ...kinematicLines(body)]));
+  const tables = (body) => [...body.equations.map((e) => equationTable({ ...e, body: body.name })), ...kinematicLines(body)];
+  element("equations").replaceChildren(...bodies.flatMap(tables));
   const ledger = element("ledger"), energy = unit(run.units.energy);
   ledger.textContent = "";
   for (const index of run.energy) addChanging(ledger, run.columns[index].n.replace(".", ": "), valueIn(index), energy);
   for (const index of run.states) addChanging(ledger, quantity(run.columns[index].n), valueIn(index), unit(run.columns[index].u));
   for (const body of bodies)
     for (const arrow of body.arrows)
-      if (arrow.work >= 0) addChanging(ledger, `work of ${body.name}.${arrow.name}`, valueIn(arrow.work), energy);
+      if (arrow.work >= 0) addChanging(ledger, phrase("work-of", `${body.name}.${arrow.name}`), valueIn(arrow.work), energy);
 }
 
 function showTables(t) {
@@ -159,44 +167,53 @@ function showTables(t) {
   for (const [text, value, format] of changing) write(text, (format || show)(value(t, row)));
 }
 
+// Formulas that are too long scroll, by keys as well.
+function reachFormulas() {
+  if (chosenBodies().length > fewBodies) return; // measuring very many takes long
+  for (const box of document.querySelectorAll(".formula")) box.tabIndex = box.scrollWidth > box.clientWidth ? 0 : -1;
+}
+
 function makeDetails(bodies) {
   makeCharts(bodies);
   makeTables(bodies);
+  markTerms();
+  reachFormulas();
 }
 
 function showCost() {
   const s = run.stats, table = element("cost");
   table.textContent = "";
-  const rows = [["method", s.method], ["tolerance of a step", show(s.tolerance)], ["steps", String(s.steps)], ["rejected", String(s.rejected)],
-    ["right-hand sides", String(s.rhs)], ["Jacobians", String(s.jacobians)], ["steps by the stiff method", String(s.stiffSteps)],
-    ["processor time of the run", `${show(s.seconds)} s`], ["events", String(run.events.count)],
-    ["rows in this page", `${run.rows}${run.thinned ? ", thinned; extremes are kept in the plots" : ""}`]];
-  for (const [label, value] of rows) addRow(table, [[label], [value, true]]);
+  const rows = [["method", s.method], ["tolerance", show(s.tolerance)], ["steps", s.steps], ["rejected", s.rejected],
+    ["right-hand-sides", s.rhs], ["jacobians", s.jacobians], ["stiff-steps", s.stiffSteps],
+    ["processor-time", `${show(s.seconds)} s`], ["events", run.events.count], ["rows", run.thinned ? phrase("thinned", run.rows) : run.rows]];
+  for (const [key, value] of rows) addRow(table, [[phrase(key)], [String(value), true]]);
+}
+
+function eventText(i) {
+  const label = eventLabel(i);
+  return `t = ${show(eventTimes[i])} s  ${label.body} ${label.kind}: ${run.events.details[i] || label.name}`;
 }
 
 function listEvents() {
   const most = 1000, list = element("events");
   list.textContent = "";
-  if (run.events.count === 0) list.textContent = "none";
+  for (const id of ["events", "events-title", "event-before", "event-next"]) element(id).hidden = run.events.count === 0;
   eventTimes.slice(0, most).forEach((t, i) => {
-    const label = eventLabel(i), button = document.createElement("button");
-    button.type = "button";
+    const button = makeButton(eventText(i));
     button.dataset.index = i;
-    const detail = run.events.details[i] || label.name;
-    button.textContent = `t = ${show(t)} s  ${label.body} ${label.kind}: ${detail}`;
     button.addEventListener("click", () => seek(t));
     list.append(button);
   });
-  if (run.events.count > most) list.append(`and ${run.events.count - most} more`);
+  if (run.events.count > most) list.append(phrase("more-events", run.events.count - most));
 }
 
 // ---- time
 
 // The state of the checkboxes.
+const choices = ["forces", "names", "values", "axes", "velocity", "trace"];
+
 function shownNow() {
-  const is = (id) => element(id).checked;
-  return { forces: is("show-forces"), names: is("show-names"), values: is("show-values"), axes: is("show-axes"), velocity: is("show-velocity"),
-    trace: is("show-trace"), follow: is("follow") };
+  return Object.fromEntries([["follow", element("follow").checked], ...choices.map((name) => [name, element(`show-${name}`).checked])]);
 }
 
 // Redraw at the present time; during an animation the texts only at intervals.
@@ -209,6 +226,8 @@ function refresh(everything = true) {
   if (everything || before - player.written > pause) {
     showValues(plotWindow.hover === null ? player.t : plotWindow.hover);
     showTables(plotWindow.hover === null ? player.t : plotWindow.hover);
+    showCard(player.t);
+    if (!player.playing) write(element("words").firstChild, sceneInWords(player.t, chosenBodies()));
     player.written = before;
   }
   player.frames++;
@@ -263,7 +282,9 @@ function usualSpeed() {
 function seekEvent(direction) {
   const small = 1e-12 * Math.max(Math.abs(run.end), 1);
   const ahead = eventTimes.filter((t) => (t - player.t) * direction > small);
-  if (ahead.length) seek(direction > 0 ? ahead[0] : ahead[ahead.length - 1]);
+  if (!ahead.length) return;
+  seek(direction > 0 ? ahead[0] : ahead[ahead.length - 1]);
+  element("said").textContent = eventText(eventTimes.indexOf(player.t));
 }
 
 const keys = {
@@ -276,6 +297,8 @@ const keys = {
   "-": () => changeSpeed(-1),
   n: () => seekEvent(1),
   p: () => seekEvent(-1),
+  a: pickNext,
+  Escape: () => pick(""),
 };
 
 function seekHash() {
@@ -285,23 +308,17 @@ function seekHash() {
 
 // ---- the start
 
-// The contents of the tables without the time-dependent numbers.
-function tablesSay(bodies) {
-  const equations = bodies.map((body) => body.equations.map((equation) => [equation, livingTerms(equation)]));
-  return JSON.stringify([equations, bodies.map((body) => body.arrows)]);
-}
-
 // Show title, summary, events and cost of the run.
 function describeRun() {
   element("title").textContent = run.title || "fbd";
-  element("summary").textContent = `t = ${show(run.start)} s to ${show(run.end)} s, ${run.bodies.length} ${run.bodies.length === 1 ? "body" : "bodies"}` +
-    (run.reason ? `. The run ended early: ${run.reason}` : "");
+  element("summary").textContent = phrase(run.bodies.length === 1 ? "one-body" : "bodies", show(run.start), show(run.end), run.bodies.length) +
+    (run.reason ? `. ${phrase("ended-early", run.reason)}` : "");
   listEvents();
   showCost();
 }
 
 function fillChoices() {
-  element("body").replaceChildren(new Option("all", String(allBodies)));
+  element("body").replaceChildren(new Option(phrase("all"), String(allBodies)));
   run.bodies.forEach((body, i) => element("body").add(new Option(body.name, String(i))));
   if (run.bodies.length > fewBodies) element("body").value = "0";
   element("which").hidden = run.bodies.length === 1;
@@ -322,35 +339,6 @@ function showRun(data) {
   makeDetails(chosenBodies());
 }
 
-// The structure of a run: bodies, forces and columns by name.
-function makeup({ columns, bodies }) {
-  const parts = bodies.map(({ name, arrows, equations }) => [name, arrows, equations.map((e) => [e.name, e.terms])]);
-  return JSON.stringify([columns.map(({ n, u }) => [n, u]), parts]);
-}
-
-// Show another run of the page's model. View, time and checkboxes are kept if the structure is the same. The scene and
-// the numbers beside it are updated first.
-function showAgain(data) {
-  const { t } = player, said = tablesSay(chosenBodies()), whole = plotWindow.from === run.start && plotWindow.to === run.end;
-  if (makeup(data) !== makeup(run)) {
-    showRun(data);
-    seek(t);
-    return;
-  }
-  takeRun(data);
-  eventTimes = run.events.times;
-  const { from, to } = plotWindow, kept = !whole && to <= run.end && from >= run.start;
-  Object.assign(plotWindow, kept ? { from, to } : { from: run.start, to: run.end });
-  Object.assign(element("scrub"), { min: run.start, max: run.end });
-  measure();
-  aim();
-  if (tablesSay(chosenBodies()) !== said) makeTables(chosenBodies());
-  if (chartsAreOthers()) makeCharts(chosenBodies()); else redrawChartsSoon();
-  seek(t);
-  clearTimeout(player.describing);
-  player.describing = setTimeout(describeRun, 0);
-}
-
 // True if the focused element itself uses the key.
 function takesKey(target, key) {
   if (target.isContentEditable || ["SELECT", "TEXTAREA"].includes(target.tagName)) return true;
@@ -360,16 +348,33 @@ function takesKey(target, key) {
   return target.type !== "range" || key.startsWith("Arrow") || key === "Home" || key === "End";
 }
 
+// Write all texts in the language chosen.
+function speak() {
+  translatePage();
+  element("speed").replaceChildren(...speeds.map((speed) => new Option(speed === 1 ? phrase("real-time") : `${show(speed)} ×`, String(speed))));
+  setSpeed(player.speed);
+}
+
+function changeLanguage(name) {
+  language = element("language").value = name;
+  speak();
+  describeRun();
+  element("body").options[0].text = phrase("all");
+  makeDetails(chosenBodies());
+  refresh();
+}
+
 function connect() {
-  for (const speed of speeds) element("speed").add(new Option(speed === 1 ? "real time" : `${show(speed)} ×`, String(speed)));
   setSpeed(usualSpeed());
-  element("play").addEventListener("click", () => setPlaying(!player.playing));
-  element("scrub").addEventListener("input", () => seek(Number(element("scrub").value)));
-  element("speed").addEventListener("change", () => setSpeed(Number(element("speed").value)));
-  element("body").addEventListener("change", () => { makeDetails(chosenBodies()); refresh(); });
-  for (const id of ["show-forces", "show-names", "show-values", "show-axes", "show-velocity", "show-trace"])
-    element(id).addEventListener("change", () => refresh());
-  element("follow").addEventListener("change", () => { fit(); refresh(); });
+  listen("language", "change", () => changeLanguage(element("language").value));
+  listen("event-before", "click", () => seekEvent(-1));
+  listen("event-next", "click", () => seekEvent(1));
+  listen("play", "click", () => setPlaying(!player.playing));
+  listen("scrub", "input", () => seek(Number(element("scrub").value)));
+  listen("speed", "change", () => setSpeed(Number(element("speed").value)));
+  listen("body", "change", () => { makeDetails(chosenBodies()); refresh(); });
+  for (const name of choices) listen(`show-${name}`, "change", () => refresh());
+  listen("follow", "change", () => { fit(); refresh(); });
   document.addEventListener("keydown", (event) => {
     if (takesKey(event.target, event.key) || event.ctrlKey || event.metaKey || event.altKey || !keys[event.key]) return;
     event.preventDefault();
@@ -379,9 +384,13 @@ function connect() {
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { fit(); restyleCharts(null); refresh(); });
 }
 
+element("words").append("");
+chooseLanguage();
+speak();
 showRun(JSON.parse(element("data").textContent));
 connect();
 connectEye();
+connectPick();
 connectPaper();
 seek(run.start);
 seekHash();

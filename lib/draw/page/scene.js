@@ -8,9 +8,17 @@ function path(points, closed) {
   if (closed) pen.closePath();
 }
 
-function dot(x, y, radius, colour) {
+function disc([x, y], radius) {
   pen.beginPath();
   pen.arc(x, y, radius, 0, 2 * Math.PI);
+}
+
+function dot(x, y, radius, colour) {
+  disc([x, y], radius);
+  fillWith(colour);
+}
+
+function fillWith(colour) {
   pen.fillStyle = colour;
   pen.fill();
 }
@@ -24,20 +32,82 @@ function strokeWith(colour, width, dash) {
 
 // ---- static parts
 
-const hatchStep = 9;
+const hatchStep = 9, hatchDepth = 11;
 
 function hatch(from, to, nx, ny) {
   const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
   const ux = (to[0] - from[0]) / length, uy = (to[1] - from[1]) / length;
-  path([from, to]);
-  strokeWith(view.colour.soft, 1.5);
+  const under = ([x, y]) => [x + hatchDepth * nx, y + hatchDepth * ny];
+  path([from, to, under(to), under(from)], true);
+  fillWith(tone.ground);
   pen.beginPath();
   for (let d = 0; d < length; d += hatchStep) {
     const x = from[0] + d * ux, y = from[1] + d * uy;
     pen.moveTo(x, y);
-    pen.lineTo(x + 8 * (nx - 0.7 * ux), y + 8 * (ny - 0.7 * uy));
+    pen.lineTo(x + hatchDepth * (nx - 0.7 * ux), y + hatchDepth * (ny - 0.7 * uy));
   }
-  strokeWith(view.colour.line, 1);
+  strokeWith(tone.hatch, 1.2);
+  path([from, to]);
+  strokeWith(tone.soft, 1.8);
+}
+
+// Fill polygons of the ground, hatched; an outline is drawn only where it is not inside another polygon.
+function drawGround(polygons) {
+  const all = polygons.map((corners) => corners.map(toScreen)), far = view.width + view.height;
+  for (const corners of all) {
+    path(corners, true);
+    strokeWith(tone.soft, 3.6);
+  }
+  for (const corners of all) {
+    pen.save();
+    path(corners, true);
+    fillWith(tone.ground);
+    pen.clip();
+    pen.beginPath();
+    for (let d = 0; d < far; d += hatchStep) {
+      pen.moveTo(d, 0);
+      pen.lineTo(d - view.height, view.height);
+    }
+    strokeWith(tone.hatch, 1);
+    pen.restore();
+    const area = corners.reduce((sum, [x, y], i) => sum + x * corners.at(i - 1)[1] - y * corners.at(i - 1)[0], 0), outward = Math.sign(area);
+    corners.forEach((to, i) => {
+      const from = corners.at(i - 1), length = Math.hypot(to[0] - from[0], to[1] - from[1]) || 1;
+      const e = [(to[0] - from[0]) / length, (to[1] - from[1]) / length];
+      view.grounds.push({ from, e, n: [-outward * e[1], outward * e[0]], length });
+    });
+  }
+}
+
+// ---- shadows
+
+// Draw where a body is near the ground: darker the nearer. They show contact; no light is modelled. All in pixels of
+// the canvas: e along the ground, n out of it.
+function drawShadow({ from, e, n, length }, body, frame) {
+  let low = Infinity, first = Infinity, last = -Infinity;
+  const take = ([x, y], radius) => {
+    const dx = x - from[0], dy = y - from[1], s = dx * e[0] + dy * e[1];
+    low = Math.min(low, dx * n[0] + dy * n[1] - radius);
+    first = Math.min(first, s - radius);
+    last = Math.max(last, s + radius);
+  };
+  if (!isSized(body) && body.line) for (const corner of blockCorners(frame)) take(corner, 0);
+  for (const shape of body.shapes) {
+    const isRound = shape.kind === "circle", radius = isRound ? shape.radius * view.scale : shape.kind === "bar" ? 4 : 0;
+    for (const point of isRound ? [shape.center] : shape.corners || []) take(toScreen(shapePoint(body, frame, point)), radius);
+  }
+  const strength = 1 - low / (24 + 0.4 * (last - first));
+  if (length) [first, last] = [Math.max(first, 0), Math.min(last, length)];
+  if (!(last > first) || !(strength > 0) || low < -8) return;
+  const middle = (first + last) / 2;
+  pen.fillStyle = tone.shadow;
+  pen.globalAlpha = 0.16 * strength;
+  for (const thick of [6, 3]) {
+    pen.beginPath();
+    pen.ellipse(from[0] + middle * e[0], from[1] + middle * e[1], (last - first) / 2 + 2 * thick - 6, thick, Math.atan2(e[1], e[0]), 0, 2 * Math.PI);
+    pen.fill();
+  }
+  pen.globalAlpha = 1;
 }
 
 // The ends, far outside of the canvas, of a line that lies `down` pixels under the point `through`.
@@ -51,7 +121,12 @@ function acrossCanvas(through, along, normal, down) {
 }
 
 function drawSurface(through, along, normal, down) {
-  hatch(...acrossCanvas(through, along, normal, down), -normal[0], normal[1]);
+  const ends = acrossCanvas(through, along, normal, down);
+  const ground = { from: ends[0], e: [along[0], -along[1]], n: [normal[0], -normal[1]] };
+  const isSame = ({ from, n }) => Math.hypot(n[0] - ground.n[0], n[1] - ground.n[1], from[0] - ends[0][0], from[1] - ends[0][1]) < 0.5;
+  if (view.grounds.some(isSame)) return; // contacts of several bodies with one line
+  hatch(...ends, -normal[0], normal[1]);
+  view.grounds.push(ground);
 }
 
 // Draw the surface under the body, or the line on which it moves.
@@ -61,14 +136,15 @@ function drawLine(body) {
     drawSurface(through, along, normal, wedgeReach(body) * view.scale || reach * view.scale || view.block * 0.7);
   } else {
     path(acrossCanvas(through, along, normal, 0));
-    strokeWith(view.colour.line, 1, [6, 4]);
+    strokeWith(tone.line, 1, [6, 4]);
   }
 }
 
 // Draw the curve of a track in the frame of its carrier; on the ground (null) in the world.
 function drawTrack(body, frame) {
   path(body.track.points.map((point) => toScreen(frame ? place(frame, ...point) : point)));
-  strokeWith(view.colour.line, 1.5);
+  strokeWith(tone.hatch, 6);
+  strokeWith(tone.soft, 1.8);
 }
 
 function drawAxis(body) {
@@ -79,10 +155,33 @@ function drawAxis(body) {
 // Draw a bearing on ground below (d = 1) or above (-1).
 function drawBearing(x, y, d) {
   path([[x, y], [x - 9, y + 15 * d], [x + 9, y + 15 * d]], true);
-  pen.fillStyle = view.colour.paper;
-  pen.fill();
-  strokeWith(view.colour.soft, 1.2);
+  fillWith(tone.paper);
+  strokeWith(tone.soft, 1.5);
   hatch([x - 18, y + 15 * d], [x + 18, y + 15 * d], 0, d);
+}
+
+function drawDamper(a, b, at) {
+  path([at(0.72, 7), at(0.38, 7), at(0.38, -7), at(0.72, -7)]);
+  fillWith(tone.ground);
+  strokeWith(tone.edge, 1.6);
+  for (const line of [[a, at(0.38, 0)], [at(0.55, 6), at(0.55, -6)], [at(0.55, 0), b]]) {
+    path(line);
+    strokeWith(tone.edge, 2);
+  }
+}
+
+// A coil of nine turns seen from the side: a circle that moves along the spring.
+function drawSpring(a, b, at, length) {
+  const turns = 9, round = 14, radius = Math.min(9, length / 6), points = [a];
+  for (let i = 0; i <= turns * round; i++) {
+    const turn = 2 * Math.PI * i / round;
+    points.push(at(0.12 + 0.76 * i / (turns * round) + 0.5 * radius / length * (Math.cos(turn) - 1), radius * Math.sin(turn)));
+  }
+  path([...points, b]);
+  pen.lineJoin = "round";
+  strokeWith(tone.edge, 3);
+  strokeWith(tone.line, 1);
+  pen.lineJoin = "miter";
 }
 
 function drawLink(link, frames) {
@@ -90,30 +189,14 @@ function drawLink(link, frames) {
   const a = toScreen(link.partner < 0 ? link.anchor : place(frames[link.partner], ...link.anchor)), b = toScreen([end[0] + shift[0], end[1] + shift[1]]);
   const dx = b[0] - a[0], dy = b[1] - a[1], length = Math.hypot(dx, dy);
   if (!(length > 1)) return;
-  const half = Math.min(6, length / 6);
   const at = (along, across) => [a[0] + dx * along - dy / length * across, a[1] + dy * along + dx / length * across];
-  if (link.kind === "damper") {
-    path([a, at(0.55, 0)]);
-    strokeWith(view.colour.soft, 1.4);
-    path([at(0.7, 6), at(0.4, 6), at(0.4, -6), at(0.7, -6)]);
-    strokeWith(view.colour.soft, 1.4);
-    path([at(0.55, 5), at(0.55, -5)]);
-    strokeWith(view.colour.soft, 1.4);
-    path([at(0.55, 0), b]);
-    strokeWith(view.colour.soft, 1.4);
-  } else {
-    const points = [a, at(0.1, 0)];
-    for (let i = 0; i < 16; i++) points.push(at(0.1 + 0.8 * (i + 0.5) / 16, i % 2 ? half : -half));
-    points.push(at(0.9, 0), b);
-    path(points);
-    strokeWith(view.colour.soft, 1.4);
-  }
+  if (link.kind === "damper") drawDamper(a, b, at); else drawSpring(a, b, at, length);
   if (link.wall) { // across the slide, hatched on the far side
     const wx = 14 * link.wall[0], wy = -14 * link.wall[1];
     hatch([a[0] - wx, a[1] - wy], [a[0] + wx, a[1] + wy], -dx / length, -dy / length);
     return;
   }
-  dot(a[0], a[1], 3, view.colour.soft);
+  dot(a[0], a[1], 3, tone.soft);
 }
 
 function drawStill() {
@@ -122,9 +205,10 @@ function drawStill() {
   still.height = canvas.height;
   pen = still.getContext("2d");
   pen.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
-  pen.fillStyle = view.colour.paper;
+  pen.fillStyle = tone.paper;
   pen.fillRect(0, 0, view.width, view.height);
   const lines = new Set();
+  view.grounds = [];
   for (const body of run.bodies) {
     if (body.axis && Math.hypot(...body.G) > 0) drawAxis(body);
     if (!body.line || body.line.on >= 0) continue;
@@ -139,40 +223,59 @@ function drawStill() {
 
 // ---- bodies
 
+// The colour of a body's area, or of the marks on it; its curves in the plots have the same hue.
+function tintOf(body, part = "tints") {
+  return tone[part][body.index % curveCount];
+}
+
+function drawWheel(x, y, outer, inner, colour) {
+  disc([x, y], outer);
+  if (inner > 0) pen.arc(x, y, inner, 0, 2 * Math.PI, true);
+  fillWith(colour);
+  strokeWith(tone.edge, 1.6);
+}
+
+// Darker sectors of a disc (two) or ring (eight), which turn with it.
+function drawSectors(x, y, outer, inner, frame, colour) {
+  const count = inner > 0 ? 8 : 2, zero = -Math.atan2(frame.s, frame.c);
+  pen.beginPath();
+  for (let k = 0; k < count; k++) {
+    const from = zero + 2 * Math.PI * k / count, to = from + Math.PI / count;
+    pen.moveTo(x + inner * Math.cos(from), y + inner * Math.sin(from));
+    pen.arc(x, y, outer, from, to);
+    pen.arc(x, y, inner, to, from, true);
+  }
+  fillWith(colour);
+}
+
 function drawShape(body, frame, shape) {
   const at = (point) => toScreen(shapePoint(body, frame, point));
-  const [x, y] = at(shape.center);
-  pen.fillStyle = shape.hole ? view.colour.paper : view.colour.body;
+  const [x, y] = at(shape.center), fill = shape.hole ? tone.paper : tintOf(body);
   if (shape.kind === "circle") {
-    pen.beginPath();
-    pen.arc(x, y, Math.max(shape.radius * view.scale, 3), 0, 2 * Math.PI);
-    if (shape.inner > 0) pen.arc(x, y, shape.inner * view.scale, 0, 2 * Math.PI, true);
-    pen.fill();
-    strokeWith(view.colour.edge, 1.4);
-    path([[x, y], at([shape.center[0] + shape.radius, shape.center[1]])]); // shows the rotation
-    if (!(shape.inner > 0) && body.motion !== "particle") strokeWith(view.colour.soft, 1.4);
+    const outer = Math.max(shape.radius * view.scale, 4), inner = (shape.inner || 0) * view.scale;
+    drawWheel(x, y, outer, inner, fill);
+    if (!shape.hole && body.motion !== "particle") drawSectors(x, y, outer, inner, frame, tintOf(body, "marks"));
+    disc([x, y], outer);
+    strokeWith(tone.edge, 1.6);
   } else if (shape.kind === "polygon") {
     path(shape.corners.map(at), true);
-    pen.fill();
-    strokeWith(view.colour.edge, 1.4);
+    fillWith(fill);
+    strokeWith(tone.edge, 1.6);
   } else if (shape.kind === "bar") {
     path(shape.corners.map(at));
     pen.lineCap = "round";
-    strokeWith(view.colour.edge, 7);
-    strokeWith(view.colour.body, 4.4);
+    strokeWith(tone.edge, 9);
+    strokeWith(fill, 6);
     pen.lineCap = "butt";
   } else {
-    dot(x, y, 5, view.colour.edge);
+    dot(x, y, 6, tone.edge);
+    dot(x, y, 4.4, tintOf(body, "marks"));
   }
 }
 
-function drawBlock(frame) {
+function blockCorners(frame) {
   const w = view.block, h = 0.7 * view.block, [x, y] = toScreen([frame.x, frame.y]);
-  const corner = (a, b) => [x + a * frame.c - b * frame.s, y - a * frame.s - b * frame.c];
-  path([corner(w, h), corner(-w, h), corner(-w, -h), corner(w, -h)], true);
-  pen.fillStyle = view.colour.body;
-  pen.fill();
-  strokeWith(view.colour.edge, 1.4);
+  return [[w, h], [-w, h], [-w, -h], [w, -h]].map(([a, b]) => [x + a * frame.c - b * frame.s, y - a * frame.s - b * frame.c]);
 }
 
 function drawBody(body, frame) {
@@ -181,11 +284,11 @@ function drawBody(body, frame) {
     const axis = toScreen([frame.x, frame.y]);
     for (const shape of body.shapes) {
       path([axis, toScreen(shapePoint(body, frame, shape.center))]);
-      strokeWith(view.colour.edge, 1.2);
+      strokeWith(tone.edge, 1.4);
     }
   }
   if (!isSized(body) && body.board) return;
-  if (!isSized(body) && body.line) { drawBlock(frame); return; }
+  if (!isSized(body) && body.line) { drawPlate(blockCorners(frame), body); return; }
   for (const hole of [false, true]) for (const shape of body.shapes) if (Boolean(shape.hole) === hole) drawShape(body, frame, shape);
 }
 
@@ -207,7 +310,7 @@ function drawTrace(body, t) {
   }
   points.push(toScreen(place(frameAt(body, t, rowAt(t)), ...point)));
   path(points);
-  strokeWith(view.colour.trace, 1.2, [4, 3]);
+  strokeWith(tone.trace, 1.2, [4, 3]);
 }
 
 // Draw everything at time t. shows: {forces, names, values, axes, velocity, trace, follow}; forces and names of
@@ -221,6 +324,7 @@ function drawScene(t, shows, chosen) {
   for (const link of run.links) drawLink(link, frames);
   for (const body of run.bodies) if (body.track && body.track.on >= 0) drawTrack(body, frames[body.track.on]);
   drawTiesUnder(frames);
+  for (const ground of view.grounds) run.bodies.forEach((body, i) => drawShadow(ground, body, frames[i]));
   run.bodies.forEach((body, i) => drawBody(body, frames[i]));
   drawTiesOver(frames, t, row);
   run.bodies.forEach((body, i) => {

@@ -5,10 +5,13 @@
 // The scene is fitted together with its arrows. Their lengths are in pixels, so the scale is the largest one at which
 // every point and every tip, at all sampled times, lies on the canvas.
 
-const canvas = document.getElementById("scene");
+const canvas = element("scene");
 let pen = canvas.getContext("2d");
 const still = document.createElement("canvas"); // static parts, drawn once
-const view = { scale: 1, x: 0, y: 0, width: 0, height: 0, block: 0, force: 1, moment: 1, speed: 1, zoom: 1, pan: [0, 0], following: false, colour: {} };
+const view = { scale: 1, x: 0, y: 0, width: 0, height: 0, block: 0, force: 1, moment: 1, speed: 1, zoom: 1, pan: [0, 0], following: false, colour: {},
+  grounds: [] };
+
+const tone = view.colour;
 
 // Pixels kept free: around, and below for the scales.
 const margin = 14, strip = 40;
@@ -93,6 +96,13 @@ function measureBody(body, t, row, take, sizes) {
   sizes.speeds.push(Math.hypot(...velocity));
 }
 
+// The bounds contain the ground's polygons as far as an eighth of their size beyond the bodies.
+function takePolygons(take) {
+  const { left, right, bottom, top } = held, pad = Math.max(right - left, top - bottom) / 8;
+  const points = run.surfaces.flatMap(({ corners }) => corners || []);
+  for (const [x, y] of points) take(Math.min(Math.max(x, left - pad), right + pad), Math.min(Math.max(y, bottom - pad), top + pad));
+}
+
 // Determine the bounds of the bodies, and the sizes of forces, moments and speeds.
 function measure() {
   for (let i = 0; i <= 400; i++) survey[i] = run.start + (run.end - run.start) * i / 400;
@@ -109,6 +119,7 @@ function measure() {
     for (const point of tiePoints((b) => frameAt(run.bodies[b], t, row))) take(...point);
     for (const body of run.bodies) measureBody(body, t, row, take, sizes);
   }
+  takePolygons(take);
   placeWalls();
   for (const link of run.links) if (link.partner < 0) take(...link.anchor);
   if (held.left > held.right) Object.assign(held, { left: 0, right: 0, bottom: 0, top: 0 });
@@ -214,7 +225,7 @@ function bodyExtent(body) {
 // True if the bodies are so small compared with their paths that rotations would be invisible.
 function bodiesAreSpecks() {
   const extents = run.bodies.map(bodyExtent);
-  return Math.min(...extents) > 0 && Math.max(...extents) * view.wholeScale < 5;
+  return Math.min(...extents) > 0 && Math.max(...extents) * view.wholeScale < 3;
 }
 
 // ---- zoom and pan
@@ -259,7 +270,15 @@ function aim() {
   drawStill();
 }
 
-const colours = ["paper", "ink", "soft", "line", "body", "edge", "gravity", "reaction", "friction", "applied", "velocity", "trace", "rope"];
+const curveCount = 8;
+const colours = ["paper", "ink", "soft", "line", "body", "edge", "ground", "hatch", "shadow", "gravity", "reaction", "friction", "applied", "velocity",
+  "trace", "rope", "strand", ...Array.from({ length: curveCount }, (none, i) => `curve-${i}`)];
+
+// A colour #rrggbb between two others.
+function mix(a, b, share) {
+  const part = (colour, i) => parseInt(colour.slice(i, i + 2), 16);
+  return "#" + [1, 3, 5].map((i) => Math.round(part(a, i) + share * (part(b, i) - part(a, i))).toString(16).padStart(2, "0")).join("");
+}
 
 // Set the resolution of the canvas: that of the screen, or for print a given size and a finer ratio.
 function fit(size = [canvas.clientWidth, canvas.clientHeight], ratio = window.devicePixelRatio || 1) {
@@ -269,7 +288,9 @@ function fit(size = [canvas.clientWidth, canvas.clientHeight], ratio = window.de
   canvas.height = Math.round(view.height * ratio);
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   const style = getComputedStyle(document.documentElement);
-  for (const name of colours) view.colour[name] = style.getPropertyValue("--" + name).trim();
+  for (const name of colours) tone[name] = style.getPropertyValue("--" + name).trim();
+  const shades = (share) => Array.from({ length: curveCount }, (none, i) => mix(tone.body, tone[`curve-${i}`], share));
+  Object.assign(tone, { tints: shades(0.24), marks: shades(0.42) });
   aim();
 }
 
