@@ -127,7 +127,12 @@ FBD_API fbd_fix fbd_errors_fix(fbd_errors *errors, size_t index);
 FBD_API size_t fbd_errors_file_count(const fbd_errors *errors);
 FBD_API const char *fbd_errors_file(const fbd_errors *errors, size_t index);
 
-/* Write every note as `file:line:col: error: message` and `    hint: ...`. */
+/* The section of the guide about errors with this id, as "guide/ten-things.md, 3. The time, or the tonne"; NULL where it has
+ * none. Lives for ever. */
+FBD_API const char *fbd_errors_guide(const char *id);
+
+/* Write every note as `file:line:col: error: message`, `    hint: ...`, and, at the first note of each section of the guide,
+ * `    see: ...`. */
 FBD_API void fbd_errors_print(fbd_errors *errors, FILE *stream);
 
 /* ---------------------------------------------------------------- models */

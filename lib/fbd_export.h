@@ -190,8 +190,8 @@ FBD_API char *fbd_model_controls(const fbd_model *model, fbd_errors *errors);
 FBD_API char *fbd_model_without(const fbd_model *model, const char *const *effects, size_t count,
                                 fbd_errors *errors);
 
-/* The notes of a list, as one JSON list of {severity, id, message, hint, file, line, column, context_line,
- * context_column, fix}, with null for an unknown hint, file or fix, and fix {line, column, replace, with} as fbd_fix. To be
+/* The notes of a list, as one JSON list of {severity, id, message, hint, see, file, line, column,
+ * context_line, context_column, fix}, with null for an unknown hint, section of the guide (see), file or fix, and fix {line, column, replace, with} as fbd_fix. To be
  * freed with fbd_free; NULL when memory is out. */
 FBD_API char *fbd_errors_json(fbd_errors *errors);
 

@@ -388,6 +388,15 @@ static void print_shown(FILE *stream, const char *text)
     }
 }
 
+/* True if the guide has a section about note `index`, and about no note before it. */
+static bool is_first_of_section(fbd_errors *errors, size_t index)
+{
+    const char *section = fbd_errors_guide(diag_get(errors, index)->id);
+    for (size_t i = 0; section && i < index; i++)
+        if (fbd_errors_guide(diag_get(errors, i)->id) == section) return false;
+    return section != NULL;
+}
+
 void fbd_errors_print(fbd_errors *errors, FILE *stream)
 {
     if (!stream) return;
@@ -406,6 +415,7 @@ void fbd_errors_print(fbd_errors *errors, FILE *stream)
             fprintf(stream, "    in the block that starts at line %d, column %d\n", e->context_line,
                     e->context_column);
         if (e->hint) fprintf(stream, "    hint: %s\n", e->hint);
+        if (is_first_of_section(errors, i)) fprintf(stream, "    see: %s\n", fbd_errors_guide(e->id));
     }
     if (errors && errors->errors > errors->limit)
         fprintf(stream, "... and %zu more errors\n", errors->errors - errors->limit);

@@ -161,7 +161,7 @@ static bool explain_unit_in_flow(const struct source *source, struct pos at, fbd
     for (int column = 1; column < at.column && i < line.length; column++)
         i += utf8_decode(line.text + i, line.length - i, &code);
     if (i == 0 || i >= line.length || line.text[i] != '[' || strchr(" ,[{:", line.text[i - 1])) return false;
-    diag_add(errors, FBD_ERROR, "yaml-syntax", at, hint_quoted(line, entry_around(line, i), errors),
+    diag_add(errors, FBD_ERROR, "unquoted-unit", at, hint_quoted(line, entry_around(line, i), errors),
              "inside braces or brackets an expression with `[unit]` needs quotes");
     return true;
 }

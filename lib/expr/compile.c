@@ -116,8 +116,8 @@ static bool unit_before(const struct parser *p, const struct quantity *q, size_t
 }
 
 /* A hint for `4 N*t`, 4 newton times tonnes, if the variable t was meant: `4[N/s]*t`. NULL if no name in the
- * unit is also a name of the scope, or if the replacement does not compile. */
-static const char *hint_of_name(const struct parser *p, const struct quantity *q)
+ * unit is also a name of the scope, or if the replacement does not compile. `is_time`: the name is t. */
+static const char *hint_of_name(const struct parser *p, const struct quantity *q, bool *is_time)
 {
     char own[96] = "";
     const char *unit = q->unit.text;
@@ -134,6 +134,7 @@ static const char *hint_of_name(const struct parser *p, const struct quantity *q
             const char *variable = diag_hint(p->errors, "%.*s%s%s%s%c%.*s", (int)q->number.length,
                                              q->number.text, *own ? "[" : "", own, *own ? "]" : "",
                                              over ? '/' : '*', (int)(q->unit.length - at), unit + at);
+            *is_time = end - at == 1 && unit[at] == 't';
             if (known && variable && compile_would_do(p, variable))
                 return diag_hint(p->errors, "`%.*s` is a unit here; for the variable write `%s`",
                                  (int)(end - at), unit + at, variable);
@@ -168,7 +169,6 @@ static const char *hint_of_want(struct parser *p, const struct operand *got, con
     char text[160];
     const struct expr_want *want = p->want;
     const char *hint = q ? hint_of_division(q, want, p->errors) : NULL;
-    if (!hint && q) hint = hint_of_name(p, q);
     if (hint) return hint;
     if (q && q->unit.length == 1 && q->unit.text[0] == 'g' && dim_equal(want->dim, DIM_ACCELERATION))
         return "`g` is the gram; standard gravity is 9.80665 m/s^2";
@@ -199,8 +199,12 @@ static bool check_dimension(struct parser *p, const struct operand *got, const s
     if (want->any_dim || got->kind.free || dim_equal(got->kind.dim, want->dim)) return true;
     struct phrase needed = check_phrase(want->dim, p->scope->units);
     struct phrase given = check_phrase(got->kind.dim, p->scope->units);
-    diag_add(p->errors, FBD_ERROR, "wrong-dimension", got->at, hint_of_want(p, got, quantity),
-             "`%s` needs %s, not %s", want->what ? want->what : "this", needed.text, given.text);
+    const bool divides = quantity && hint_of_division(quantity, want, p->errors);
+    bool is_time = false;
+    const char *name = quantity && !divides ? hint_of_name(p, quantity, &is_time) : NULL;
+    diag_add(p->errors, FBD_ERROR, name && is_time ? "time-as-unit" : "wrong-dimension", got->at,
+             name ? name : hint_of_want(p, got, quantity), "`%s` needs %s, not %s",
+             want->what ? want->what : "this", needed.text, given.text);
     return false;
 }
 

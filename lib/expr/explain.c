@@ -224,6 +224,19 @@ static const char *acceleration_hint(struct parser *p, const char *name)
         (int)(dot - name), name);
 }
 
+/* Of names that textbooks have for quantities which have others here, or which a value cannot depend on. */
+static const char *textbook_hint(const struct parser *p, const char *name)
+{
+    const bool inertia = strcmp(name, "I") == 0 || strcmp(name, "J") == 0;
+    if (inertia && explain_is_known(p->scope, "I_G", strlen("I_G")))
+        return "moments of inertia are `I_G`, about the centre of mass, and on a pivot `I_O`, about its axis";
+    if (strcmp(name, "N") == 0)
+        return "the normal force follows from the other forces, which cannot name it; as a unit N stands in "
+               "brackets behind a "
+               "number: `5[N]`";
+    return NULL;
+}
+
 static const char *name_hint(struct parser *p, const char *name, size_t length)
 {
     const char *hint = acceleration_hint(p, name);
@@ -247,6 +260,8 @@ static const char *name_hint(struct parser *p, const char *name, size_t length)
     for (size_t i = 0; i < tables; i++)
         if (strcmp(names_of_tables[i], name) == 0)
             return diag_hint(p->errors, "`%s` is a table: write `%s(...)` with its argument", name, name);
+    hint = textbook_hint(p, name);
+    if (hint) return hint;
     if (unit_find(name, length))
         return diag_hint(p->errors, "`%s` as a unit stands in brackets behind a number: `5[%s]`", name, name);
     return diag_nearest(p->errors, name, names, count);

@@ -130,7 +130,8 @@ static const char *name_of(const struct node *entry)
 static void note_unreadable(struct fbd_grade *grade, const char *body, const struct node *entry,
                             const fbd_error *error)
 {
-    bool unit = strcmp(error->id, "wrong-dimension") == 0 && entry;
+    bool dimension = strcmp(error->id, "wrong-dimension") == 0 || strcmp(error->id, "time-as-unit") == 0;
+    bool unit = dimension && entry;
     finding_of_error(grade, unit ? FBD_FINDING_UNIT : FBD_FINDING_UNREADABLE, body, name_of(entry), error);
 }
 

@@ -164,6 +164,14 @@ static const char *unknown_of(const struct lines *lines, int body, const struct 
     return (asked & (unsigned)FBD_NAMES_NORMAL) && !(asked & (unsigned)FBD_NAMES_FORCES) ? "N" : NULL;
 }
 
+/* Of a line with a condition: the sense of slip for which it was evaluated. */
+static const char *sense_of(const struct line *key)
+{
+    const size_t *states = key->is.states;
+    if ((states[0] > 0) == (states[2] > 0)) return "";
+    return states[0] > 0 ? " for slip backward" : " for slip forward";
+}
+
 static void say_of_key_line(struct lines *lines, int body, const struct line *key)
 {
     struct fbd_grade *grade = lines->grade;
@@ -174,6 +182,7 @@ static void say_of_key_line(struct lines *lines, int body, const struct line *ke
     finding->points = key->share * finding->most;
     text_printf(&text, "%s%s%s", key->share > 0 ? "the equation" : "a right equation", name ? " for " : "",
                 name ? name : "");
+    if (key->share == 0) text_add(&text, sense_of(key));
     text_add(&text, key->share == 1  ? " is right"
                     : key->share > 0 ? " is right for one direction of slip only"
                                      : " is missing");

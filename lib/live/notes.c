@@ -36,6 +36,7 @@ static void write_note(struct text *text, const fbd_error *error, fbd_fix fix)
     json_text_member(text, "id", error->id);
     json_text_member(text, "message", error->message);
     text_or_null(text, "hint", error->hint);
+    text_or_null(text, "see", fbd_errors_guide(error->id));
     text_or_null(text, "file", error->file);
     text_printf(text, "\"line\":%d,\"column\":%d,\"context_line\":%d,\"context_column\":%d,", error->line,
                 error->column, error->context_line, error->context_column);

@@ -255,6 +255,8 @@ static void note_no_mapping(struct reader *reader, const struct group *group, co
         used += (size_t)n;
     }
     const char *hint = not_given(group);
+    if (strcmp(group->name, "`normal`") == 0)
+        hint = "it follows from the other forces and has no value: in the list it is `normal` alone";
     diag_add(reader->errors, FBD_ERROR, "wrong-type", node->at,
              hint ? hint : diag_hint(reader->errors, "its keys: %s", list),
              "%s must be a mapping of keys, not %s", group->name, value_found(reader, node));

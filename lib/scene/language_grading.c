@@ -48,8 +48,8 @@ static const struct field grading_fields[] = {
                "what the parts of an answer are worth"),
     FIELD_NODE(offsetof(struct grading_keys, canvas), "canvas", field_map, 0, &canvas_group,
                "where drawings (JSON) of answers lie in the scene"),
-    FIELD_NODE(offsetof(struct grading_keys, reactions), "reactions", field_any, 0, NULL,
-               "which reactions an answer has to draw: `all`, `none`, or a list of names; default all"),
+    FIELD_ENTRIES(offsetof(struct grading_keys, reactions), "reactions", field_any, 0, each_word, NULL,
+                  "which reactions an answer has to draw: `all`, `none`, or a list of names; default all"),
 };
 
 const struct group grading_group = {"`grading`", NULL, FIELDS(grading_fields),

@@ -47,7 +47,8 @@ const struct ground_line *ground_line_find(struct reader *reader, const struct n
                  "the ground has no line %s", value_found(reader, name));
         return NULL;
     }
-    const struct ground_line *line = &reader->ground_lines[pair - reader->lines->pairs];
+    struct ground_line *line = &reader->ground_lines[pair - reader->lines->pairs];
+    line->used = true;
     return line->valid ? line : NULL;
 }
 
@@ -107,6 +108,7 @@ static bool read_line(struct reader *reader, const struct pair *pair, struct gro
     bool named = name_check(reader->errors, pair->key, pair->at, "a line");
     line->valid = fields_read(reader, &line_group, pair->value, pair->at, &reader->constants, &keys);
     line->along = keys.along;
+    line->at = pair->at;
     if (keys.through && !ground_point_read(reader, keys.through, "through", &line->through))
         line->valid = false;
     return named && line->valid;

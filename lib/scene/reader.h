@@ -69,7 +69,8 @@ struct definition_readers {
 struct ground_line {
     struct vec through;
     double along;
-    bool valid;
+    struct pos at;
+    bool valid, used;
 };
 
 struct ground_point {
@@ -284,6 +285,9 @@ bool body_loads_name(struct reader *reader, int body, const char *const *names, 
 /* When the file was read without errors: warn of surfaces without a normal force (lint_friction.c). False
  * when memory is out. */
 bool lint_friction_note(struct reader *reader);
+
+/* When the file was read without errors: warn of loads and lines without effect (lint_effects.c). */
+void lint_effects_note(struct reader *reader);
 
 /* When all loads are read: add the reactions to forces that point to other bodies (read_reactions.c). */
 bool reactions_add(struct reader *reader);

@@ -158,6 +158,7 @@ static void read_scene(struct reader *reader, const struct override *overrides, 
     if (!is_hopeless(reader)) grading_read(reader, keys.grading);
     if (fbd_errors_failed_count(reader->errors) > 0) return;
     lint_friction_note(reader);
+    lint_effects_note(reader);
     parameters_note_unused(reader);
     tables_note_unused(reader);
 }

@@ -140,6 +140,7 @@ def view(pointer: Any, shape: Tuple[int, ...], owner: Any) -> "np.ndarray[Any, n
 
 def _note(errors: Any, index: int) -> Note:
     error, fix = lib.fbd_errors_get(errors, index), lib.fbd_errors_fix(errors, index)
+    see = lib.fbd_errors_guide(error.id)
     return Note(
         "error" if error.severity == lib.FBD_ERROR else "warning",
         text_at(error.id),
@@ -151,6 +152,7 @@ def _note(errors: Any, index: int) -> Note:
         error.context_line,
         error.context_column,
         None if fix.replace == ffi.NULL else Fix(fix.line, fix.column, text_at(fix.replace), text_at(getattr(fix, "with"))),
+        text_at(see) if see != ffi.NULL else None,
     )
 
 

@@ -45,6 +45,7 @@ class Note(NamedTuple):
     context_line: int  #: what was being read there
     context_column: int
     fix: Optional[Fix] = None  #: the edit that the hint suggests, where it is one
+    see: Optional[str] = None  #: the section of the guide about it, where there is one
 
     def __str__(self) -> str:
         place = f"{self.file}:" if self.file else ""
@@ -53,7 +54,8 @@ class Note(NamedTuple):
         text = f"{place}{' ' if place else ''}{self.severity}: {self.message}{mark}"
         if self.context_line:
             text += f"\n    in the block that starts at line {self.context_line}, column {self.context_column}"
-        return text + (f"\n    hint: {self.hint}" if self.hint else "")
+        text += f"\n    hint: {self.hint}" if self.hint else ""
+        return text + (f"\n    see: {self.see}" if self.see else "")
 
 
 class _Noted:
@@ -94,7 +96,9 @@ class _Noted:
         return self._first().column
 
     def __str__(self) -> str:
-        return "\n".join(str(note) for note in self.notes)
+        """As fbd-run, with each section of the guide once."""
+        seen = [note.see for note in self.notes]
+        return "\n".join(str(note._replace(see=None) if note.see in seen[:i] else note) for i, note in enumerate(self.notes))
 
 
 class Error(_Noted, Exception):

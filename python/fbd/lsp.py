@@ -423,7 +423,7 @@ class Lsp(Server):
         if note.fix:
             line, start = note.fix.line - 1, note.fix.column - 1
             end = start + len(note.fix.replace)
-        message = note.message + (f"\nhint: {note.hint}" if note.hint else "")
+        message = note.message + (f"\nhint: {note.hint}" if note.hint else "") + (f"\nsee: {note.see}" if note.see else "")
         return {"range": span(lines, line, start, end), "severity": 1 if note.severity == "error" else 2, "code": note.id,
                 "source": "fbd", "message": message}
 

@@ -64,6 +64,8 @@ static void errors_and_models(void **state)
     ANSWERS(fbd_errors_count, fbd_errors_count(NULL) == 0);
     ANSWERS(fbd_errors_failed_count, fbd_errors_failed_count(NULL) == 0);
     ANSWERS(fbd_errors_get, !fbd_errors_get(NULL, 0).id);
+    ANSWERS(fbd_errors_guide, !fbd_errors_guide(NULL));
+    ANSWERS(fbd_errors_guide, !fbd_errors_guide(""));
     ANSWERS(fbd_errors_file_count, fbd_errors_file_count(NULL) == 0);
     ANSWERS(fbd_errors_file, !fbd_errors_file(NULL, 0));
     ANSWERS(fbd_errors_file, !fbd_errors_file(errors, past));

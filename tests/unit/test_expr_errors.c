@@ -299,9 +299,9 @@ static void a_quantity_of_the_wrong_dimension_is_explained(void **state)
 {
     (void)state;
     const struct wrong forces[] = {
-        {"4 N*t", "wrong-dimension", 3, "`4[N/s]*t`"},     {"4 N/s*t", "wrong-dimension", 3, "`4[N/s]*t`"},
-        {"4 N t", "wrong-dimension", 3, "`4[N/s]*t`"},     {"5 t", "wrong-dimension", 3, "`5*t`"},
-        {"4 N/t", "wrong-dimension", 3, "`4[N*s]/t`"},     {"2 kg", "wrong-dimension", 3, "units of force"},
+        {"4 N*t", "time-as-unit", 3, "`4[N/s]*t`"},        {"4 N/s*t", "time-as-unit", 3, "`4[N/s]*t`"},
+        {"4 N t", "time-as-unit", 3, "`4[N/s]*t`"},        {"5 t", "time-as-unit", 3, "`5*t`"},
+        {"4 N/t", "time-as-unit", 3, "`4[N*s]/t`"},        {"2 kg", "wrong-dimension", 3, "units of force"},
         {"30 deg", "wrong-dimension", 4, "a pure number"},
     };
     CHECK(forces, &a_force);

@@ -226,7 +226,7 @@ static void a_body_of_unknown_motion_has_no_second_error(void **state)
                                  "    hand: m*v_dot = -3[N/m]*x\n"
                                  "  b: {mass: 1, motion: slide, forces: [{applied: a.x}]}\n");
     /* The unit in brackets needs quotes inside the list. */
-    assert_first_note(&r, "yaml-syntax", 7, 60);
+    assert_first_note(&r, "unquoted-unit", 7, 60);
     end_reading(&r);
     r = read_text("fbd: 1\nbodies:\n"
                   "  a:\n"

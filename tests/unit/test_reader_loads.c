@@ -59,7 +59,7 @@ static void forces_come_before_moments_in_file_order(void **state)
 static void a_single_entry_needs_no_list(void **state)
 {
     (void)state;
-    struct reading r = read_body("pivot", "    forces: gravity\n    moments: {applied: 3 N*m}");
+    struct reading r = read_body("{pivot: {point: G}}", "    forces: gravity\n    moments: {applied: 3 N*m}");
     assert_int_equal(load_at(&r, 0)->kind, load_gravity);
     assert_int_equal(load_at(&r, 1)->kind, moment_applied);
     end_reading(&r);

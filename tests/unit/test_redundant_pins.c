@@ -112,10 +112,10 @@ static void write_bead(const struct pendulum *p, enum bead bead, char *text)
              "along: %.17g}}\n"
              "bodies:\n  bead:\n    {mass: 2, %s, forces: [{spring: {name: s, stiffness: %.17g, to: [%.17g, "
              "%.17g], "
-             "free_length: 0.1}},\n     {applied: {name: press, value: 200, angle: %.17g}}]}\n%ssimulate: "
+             "free_length: 0.1}},\n     {applied: {name: press, value: [%.17g, %.17g]}}]}\n%ssimulate: "
              "{until: 1.5}\n",
              far * c, far * s, far * c, far * s, along, motion, p->stiffness, 0.7 * c + 0.2 * s,
-             0.7 * s - 0.2 * c, along - 1.5707963267948966, coupling);
+             0.7 * s - 0.2 * c, 200 * s, -200 * c, coupling);
 }
 
 static void beads_on_a_line_move_alike(void **unused)

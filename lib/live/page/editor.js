@@ -40,10 +40,10 @@ function noteItem(note) {
   button.textContent = `${note.line ? `${note.line}:${note.column}: ` : ""}${note.severity}: ${note.message}`;
   if (note.line) button.addEventListener("click", () => goToNote(note));
   item.append(button);
-  if (note.hint) {
-    const hint = document.createElement("small");
-    hint.textContent = note.hint;
-    item.append(hint);
+  for (const text of [note.hint, note.see && `see ${note.see}`].filter(Boolean)) {
+    const more = document.createElement("small");
+    more.textContent = text;
+    item.append(more);
   }
   return item;
 }
