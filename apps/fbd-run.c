@@ -17,6 +17,7 @@
 #include "finding.h"
 #include "fmu.h"
 #include "grading.h"
+#include "linearizing.h"
 #include "live_page.h"
 #include "options.h"
 #include "outputs.h"
@@ -220,22 +221,11 @@ static enum exit_code show_equations(const struct options *options, fbd_state *s
     return code;
 }
 
-static enum exit_code show_linear(const struct options *options, fbd_state *state, fbd_errors *errors)
-{
-    fbd_linearization *linear = fbd_linearize(state, errors);
-    enum exit_code code = linear ? exit_done : exit_failed;
-    if (linear && !data_alone(options)) code = print(fbd_linearization_text(linear), exit_done);
-    if (code == exit_done && options->json) code = write_json(options, fbd_linearization_json(linear));
-    if (code == exit_done && options->svg) code = write_picture(options->svg, fbd_linearization_svg(linear));
-    fbd_linearization_free(linear);
-    return code;
-}
-
 static enum exit_code show_placed(const struct options *options, fbd_state *state, fbd_errors *errors)
 {
     if (options->cut) return cutting(options, state, errors);
     if (options->action == action_static) return show_statics(options, state, errors);
-    if (options->action == action_linearize) return show_linear(options, state, errors);
+    if (options->action == action_linearize) return linearizing(options, state, errors);
     if (!fbd_state_close(state, errors)) return exit_failed;
     const enum exit_code code = show_equations(options, state);
     return code == exit_done ? draw_state(options, state, errors) : code;

@@ -73,6 +73,8 @@ enum {
     option_runs,
     option_fit,
     option_parameters,
+    option_inputs,
+    option_outputs,
     option_examples,
     option_example,
 };
@@ -134,6 +136,8 @@ static const struct option long_options[] = {
     {"runs", required_argument, NULL, option_runs},
     {"fit", required_argument, NULL, option_fit},
     {"parameters", required_argument, NULL, option_parameters},
+    {"inputs", required_argument, NULL, option_inputs},
+    {"outputs", required_argument, NULL, option_outputs},
     {"examples", no_argument, NULL, option_examples},
     {"example", required_argument, NULL, option_example},
     {"schema", no_argument, NULL, option_schema},
@@ -222,6 +226,8 @@ static bool take_drawing(struct options *options, int option)
     case option_find: options->find = optarg; return true;
     case option_fit: options->fit = optarg; return true;
     case option_parameters: options->parameters = optarg; return true;
+    case option_inputs: options->inputs = optarg; return true;
+    case option_outputs: options->outputs = optarg; return true;
     case option_runs: return take_runs(&options->find_runs);
     default: return usage("unknown option, or an option without its value", "");
     }
@@ -401,9 +407,17 @@ static bool find_agrees(const struct options *options)
 static bool outputs_agree(const struct options *options)
 {
     const bool stands_still = options->action != action_run;
-    if (stands_still && (options->csv || options->html || options->note || options->plot ||
-                         options->gnuplot || options->ledger || options->every > 0))
-        return usage("--csv, --html, --note, --plot, --gnuplot, --ledger and --every belong to a run", "");
+    const bool responds = options->action == action_linearize; /* frequency responses */
+    if ((stands_still && (options->html || options->note || options->ledger || options->every > 0)) ||
+        (stands_still && !responds && (options->csv || options->plot || options->gnuplot)))
+        return usage(
+            "--csv, --html, --note, --plot, --gnuplot, --ledger and --every belong to a run; --csv, --plot "
+            "and --gnuplot also go with --linearize",
+            "");
+    if ((options->inputs || options->outputs) && !responds)
+        return usage("--inputs and --outputs go with --linearize", "");
+    if (responds && options->plot_of)
+        return usage("--outputs, not --plot-of, chooses the responses of --linearize", "");
     if (options->note && options->without_count > 0)
         return usage("--note describes the file as it is: comment its entries out, instead of --without", "");
     if (options->plot_of && !options->plot && !options->gnuplot)

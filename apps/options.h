@@ -46,12 +46,13 @@ struct options {
     bool details, exam;
     char **answers;
     size_t answer_count;
-    const char *fit;        /* a file of measured data, or NULL */
-    const char *parameters; /* those to fit, with commas between; NULL for all */
-    const char *cut;        /* a body, or BODY=PLACE: its section forces; or NULL */
-    const char *find;       /* a question, or NULL */
-    size_t find_runs;       /* of the scan of the range, or 0 */
-    const char *example;    /* the name of action_example */
+    const char *fit;              /* a file of measured data, or NULL */
+    const char *parameters;       /* those to fit, with commas between; NULL for all */
+    const char *inputs, *outputs; /* of --linearize, with commas between; NULL for the usual ones */
+    const char *cut;              /* a body, or BODY=PLACE: its section forces; or NULL */
+    const char *find;             /* a question, or NULL */
+    size_t find_runs;             /* of the scan of the range, or 0 */
+    const char *example;          /* the name of action_example */
     const char *fmu;
     int fmu_version; /* 0 when not given */
     bool watch, live;

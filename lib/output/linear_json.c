@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "fbd_study.h"
 #include "output/display_units.h"
+#include "output/linear_text.h"
 #include "rest/linearize.h"
 
 static void write_equilibrium(struct text *text, const struct fbd_linearization *linear)
@@ -30,9 +31,8 @@ static void write_states(struct text *text, const struct fbd_linearization *line
     text_add(text, "],\n");
 }
 
-/* Rows of numbers. */
-static void write_matrix(struct text *text, const char *name, const double *values, size_t rows,
-                         size_t columns)
+void linear_write_json_matrix(struct text *text, const char *name, const double *values, size_t rows,
+                              size_t columns)
 {
     text_add(text, "  ");
     text_json_key(text, name);
@@ -62,23 +62,31 @@ static void write_modes(struct text *text, const struct fbd_linearization *linea
     text_add(text, "\n  ],\n");
 }
 
+void linear_write_json(struct text *text, const struct fbd_linearization *linear)
+{
+    text_add(text, "  ");
+    text_json_key(text, "title");
+    text_json_string(text, linear->model->scene->title);
+    text_add(text, linear->degrees ? ",\n  \"angles\": \"deg\",\n" : ",\n");
+    write_equilibrium(text, linear);
+    write_states(text, linear);
+    linear_write_json_matrix(text, "A", linear->A, linear->size, linear->size);
+    if (linear->way)
+        linear_write_json_matrix(text, "followers", linear->way, (size_t)linear->model->plan.n,
+                                 linear->count);
+    write_modes(text, linear);
+    text_add(text, "  ");
+    text_json_key(text, "degenerate");
+    text_add(text, linear->degenerate ? "true" : "false");
+}
+
 char *fbd_linearization_json(const fbd_linearization *linear)
 {
     if (!linear) return NULL;
     struct text text = {0};
-    text_add(&text, "{\n  ");
-    text_json_key(&text, "title");
-    text_json_string(&text, linear->model->scene->title);
-    text_add(&text, linear->degrees ? ",\n  \"angles\": \"deg\",\n" : ",\n");
-    write_equilibrium(&text, linear);
-    write_states(&text, linear);
-    write_matrix(&text, "A", linear->A, linear->size, linear->size);
-    if (linear->way)
-        write_matrix(&text, "followers", linear->way, (size_t)linear->model->plan.n, linear->count);
-    write_modes(&text, linear);
-    text_add(&text, "  ");
-    text_json_key(&text, "degenerate");
-    text_add(&text, linear->degenerate ? "true\n}\n" : "false\n}\n");
+    text_add(&text, "{\n");
+    linear_write_json(&text, linear);
+    text_add(&text, "\n}\n");
     if (text.failed) text_free(&text);
     return text.data;
 }

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "fbd_study.h"
 #include "output/display_units.h"
+#include "output/linear_text.h"
 #include "rest/linearize.h"
 
 enum { digits = 9 };
@@ -57,10 +58,23 @@ static void write_ways(struct text *text, const struct fbd_linearization *linear
     }
 }
 
+void linear_write_rows(struct text *text, const double *values, size_t rows, size_t columns)
+{
+    enum { width = 17 };
+    for (size_t i = 0; i < rows; i++) {
+        for (size_t j = 0; j < columns; j++) {
+            text_pad(text, 2 + width * j);
+            text_add(text, values[i * columns + j] < 0 ? "" : " ");
+            text_number(text, values[i * columns + j], digits);
+        }
+        text_add(text, "\n");
+    }
+}
+
 static void write_matrix(struct text *text, const struct fbd_linearization *linear)
 {
     size_t size = linear->size;
-    enum { largest = 12, width = 17 };
+    enum { largest = 12 };
     if (size > largest) {
         text_printf(text, "\nA is %zu x %zu\n", size, size);
         return;
@@ -68,14 +82,7 @@ static void write_matrix(struct text *text, const struct fbd_linearization *line
     text_add(text, "\nx' = A x for the deviations x = (");
     for (size_t i = 0; i < size; i++) text_printf(text, "%s%s", i ? ", " : "", linearization_name(linear, i));
     text_add(text, "), A =\n");
-    for (size_t i = 0; i < size; i++) {
-        for (size_t j = 0; j < size; j++) {
-            text_pad(text, 2 + width * j);
-            text_add(text, linear->A[i * size + j] < 0 ? "" : " ");
-            text_number(text, linear->A[i * size + j], digits);
-        }
-        text_add(text, "\n");
-    }
+    linear_write_rows(text, linear->A, size, size);
 }
 
 static const char *kind_of(const fbd_mode *mode, bool degenerate)
@@ -87,15 +94,20 @@ static const char *kind_of(const fbd_mode *mode, bool degenerate)
     return mode->re < -small ? "oscillates and decays" : "oscillates";
 }
 
+void linear_write_complex(struct text *text, double re, double im)
+{
+    const double round_off = 1e-12;
+    text_number(text, fabs(re) < round_off * fabs(im) ? 0 : re, digits);
+    if (im == 0) return;
+    text_add(text, im > 0 ? " + " : " - ");
+    text_number(text, fabs(im), digits);
+    text_add(text, " i");
+}
+
 static void write_mode(struct text *text, const fbd_mode *mode, bool degenerate)
 {
     text_add(text, "  ");
-    text_number(text, fabs(mode->re) < 1e-12 * mode->frequency ? 0 : mode->re, digits); /* rounding */
-    if (mode->im != 0) {
-        text_add(text, mode->im > 0 ? " + " : " - ");
-        text_number(text, fabs(mode->im), digits);
-        text_add(text, " i");
-    }
+    linear_write_complex(text, mode->re, mode->im);
     text_add(text, " 1/s  ");
     text_pad(text, 36);
     if (mode->im == 0 && mode->frequency > 0) {
@@ -116,17 +128,22 @@ static void write_mode(struct text *text, const fbd_mode *mode, bool degenerate)
     text_printf(text, "%s\n", kind_of(mode, degenerate));
 }
 
+void linear_write_text(struct text *text, const struct fbd_linearization *linear)
+{
+    write_equilibrium(text, linear);
+    write_ways(text, linear);
+    write_matrix(text, linear);
+    text_add(text, "\nEigenvalues\n");
+    for (size_t i = 0; i < linear->size; i++)
+        if (linear->modes[i].im >= 0)
+            write_mode(text, &linear->modes[i], linear->degenerate); /* the conjugate is redundant */
+}
+
 char *fbd_linearization_text(const fbd_linearization *linear)
 {
     if (!linear) return NULL;
     struct text text = {0};
-    write_equilibrium(&text, linear);
-    write_ways(&text, linear);
-    write_matrix(&text, linear);
-    text_add(&text, "\nEigenvalues\n");
-    for (size_t i = 0; i < linear->size; i++)
-        if (linear->modes[i].im >= 0)
-            write_mode(&text, &linear->modes[i], linear->degenerate); /* the conjugate is redundant */
+    linear_write_text(&text, linear);
     if (text.failed) text_free(&text);
     return text.data;
 }

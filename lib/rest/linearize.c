@@ -413,6 +413,18 @@ static void note_failure(const struct fbd_model *model, bool settled, int found,
                  "no equilibrium was found near the start");
 }
 
+/* Keep the equilibrium for derivatives by inputs. */
+static bool keep_state(struct fbd_linearization *linear, const struct fbd_state *state)
+{
+    const size_t n = (size_t)linear->model->plan.n;
+    linear->state = state_new(linear->model);
+    if (!linear->state) return false;
+    state_copy(linear->state, state);
+    move_place(linear->state, linear->q, true);
+    memset(linear->state->y + n, 0, n * sizeof *linear->state->y);
+    return true;
+}
+
 static fbd_linearization *linearize(fbd_state *state, fbd_errors *errors)
 {
     const struct fbd_model *model = state->model;
@@ -429,6 +441,7 @@ static fbd_linearization *linearize(fbd_state *state, fbd_errors *errors)
     int found = linear && settled ? find_matrix(linear, state, errors) : -1;
     bool said = found == -2 || (found > 0 && !is_finite(linear, state, errors));
     int modes = found > 0 && !said ? eigenvalues_find(linear->size, linear->A, linear->modes) : -1;
+    if (modes > 0 && !keep_state(linear, state)) modes = -1;
     if (modes > 0) return linear;
     if (!said) note_failure(model, settled, found > 0 ? modes : found, found > 0, errors);
     fbd_linearization_free(linear);
@@ -452,6 +465,7 @@ void fbd_linearization_free(fbd_linearization *linearization)
     free(linearization->A);
     free(linearization->modes);
     free(linearization->q);
+    state_free(linearization->state);
     free(linearization);
 }
 

@@ -25,9 +25,10 @@ struct fbd_linearization {
     double *way;  /* n x count: the matrix T; NULL without couplings */
     double *A;    /* size x size, row by row (and df/dt behind it) */
     fbd_mode *modes;
-    double *q;       /* plan_rates: the equilibrium, [q, z] */
-    bool degrees;    /* the equilibrium is shown in degrees */
-    bool degenerate; /* forces without a derivative there were reported; their rows of A are zero */
+    double *q;               /* plan_rates: the equilibrium, [q, z] */
+    struct fbd_state *state; /* at the equilibrium, at rest */
+    bool degrees;            /* the equilibrium is shown in degrees */
+    bool degenerate;         /* forces without a derivative there were reported; their rows of A are zero */
 };
 
 /* The name of entry i of x = [q, v, z]. */

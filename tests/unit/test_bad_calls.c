@@ -334,6 +334,24 @@ static void linearizations_and_derivations(void **context)
     ANSWERS(fbd_linearization_text, !fbd_linearization_text(NULL));
     ANSWERS(fbd_linearization_json, !fbd_linearization_json(NULL));
     ANSWERS(fbd_linearization_svg, !fbd_linearization_svg(NULL));
+    REFUSES(fbd_linear_system_new, !fbd_linear_system_new(NULL, NULL, errors));
+    REFUSES(fbd_linear_system_new,
+            !fbd_linear_system_new(linear, &(fbd_linear_plan){.output_count = 1}, errors));
+    REFUSES(fbd_transfer_new, !fbd_transfer_new(NULL, 0, 0, errors));
+    ENDURES(fbd_linear_system_free, fbd_linear_system_free(NULL));
+    ENDURES(fbd_transfer_free, fbd_transfer_free(NULL));
+    ANSWERS(fbd_linear_system_input_count, fbd_linear_system_input_count(NULL) == 0);
+    ANSWERS(fbd_linear_system_output_count, fbd_linear_system_output_count(NULL) == 0);
+    ANSWERS(fbd_linear_system_input, !fbd_linear_system_input(NULL, 0).name);
+    ANSWERS(fbd_linear_system_output, !fbd_linear_system_output(NULL, 0).name);
+    ANSWERS(fbd_linear_system_input_matrix, !fbd_linear_system_input_matrix(NULL));
+    ANSWERS(fbd_linear_system_output_matrix, !fbd_linear_system_output_matrix(NULL));
+    ANSWERS(fbd_linear_system_feedthrough, !fbd_linear_system_feedthrough(NULL));
+    ANSWERS(fbd_linear_system_response, !fbd_linear_system_response(NULL, 0, 0, NULL, 0, NULL));
+    ANSWERS(fbd_linear_system_text, !fbd_linear_system_text(NULL));
+    ANSWERS(fbd_linear_system_json, !fbd_linear_system_json(NULL));
+    ANSWERS(fbd_linear_system_csv, !fbd_linear_system_csv(NULL));
+    ANSWERS(fbd_linear_system_gnuplot, !fbd_linear_system_gnuplot(NULL, NULL));
     ANSWERS(fbd_check_hand, !fbd_check_hand(NULL, 1, &differing) && differing == 0);
     char *verdict = fbd_check_hand(model, 1, NULL);
     assert_non_null(verdict);
