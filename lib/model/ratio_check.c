@@ -12,6 +12,7 @@
 #include <stdlib.h>
 
 #include "model/builder.h"
+#include "numeric/tolerances.h"
 
 struct elimination {
     struct builder *builder;
@@ -49,10 +50,9 @@ static int largest(const double *row, int n)
 
 static void subtract(double *row, double factor, const double *other, int n)
 {
-    const double rounding = 1e-12;
     for (int i = 0; factor != 0 && i < n; i++) {
         const double part = factor * other[i];
-        row[i] = fabs(row[i] - part) <= rounding * fabs(part) ? 0 : row[i] - part;
+        row[i] = fabs(row[i] - part) <= negligible_sum * fabs(part) ? 0 : row[i] - part;
     }
 }
 
