@@ -148,6 +148,7 @@ const struct constraint_form constraint_forms[constraint_kinds] = {
     [constraint_rod] = {.rows = rod, .start = zero_start},
     [constraint_gear] = {.rows = gear, .start = zero_start},
     [constraint_rack] = {.rows = rack, .start = side_start},
+    [constraint_ratio] = {.rows = ratio_row, .start = zero_start},
     [constraint_roll] = {.rows = roll, .start = side_start},
     [constraint_resistance] = {.rows = resistance, .start = zero_start},
     [constraint_slot] = {.rows = slot_row, .start = slot_start, .follow = slot_follow, .left = slot_room},
@@ -282,7 +283,9 @@ bool couplings_go_on(const struct tree *tree)
 {
     for (int i = 0; i < tree->coupling_count; i++) {
         enum constraint_kind kind = tree->couplings[i].kind;
-        if (kind != constraint_pin && kind != constraint_rod && kind != constraint_gear) return false;
+        if (kind != constraint_pin && kind != constraint_rod && kind != constraint_gear &&
+            kind != constraint_ratio)
+            return false;
     }
     return true;
 }

@@ -17,6 +17,9 @@
  *          |T_2 - T_1| <= tanh(mu beta / 2) (T_1 + T_2)
  *   slot   g = n . (P - r), r = r(s) the foot of P on the curve, e(s) . (P - r) = 0; for a one-sided slot with
  *          a roller -+n . (P - r) - R
+ *   ratio  g = sum c_i q_i of coordinates q_i in joints, c_i a length where q_i is an angle; its multiplier acts on
+ *          each body by the generalized force c_i, and by the opposite on the body below, so that it acts on no
+ *          other joint
  *   roll   g = n . (C - P) - R, and the rack's row
  *   rolling resistance  g = theta_C - theta_P; its multiplier is a moment
  *   contact, at a side: as roll, with the side's outward normal; of two circles:

@@ -193,6 +193,10 @@ void slot_follow(const struct view *view, const struct coupling *coupling, struc
 struct room slot_room(const struct view *view, const struct coupling *coupling,
                       const struct coupling_state *state, int end);
 
+/* constraint_ratio.c */
+void ratio_row(const struct view *view, const struct coupling *coupling, const struct coupling_state *state,
+               struct row *row);
+
 /* constraint_contact.c: at its feature */
 void contact_rows(const struct view *view, const struct coupling *coupling,
                   const struct coupling_state *state, struct row *rows);

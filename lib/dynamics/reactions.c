@@ -106,6 +106,16 @@ static struct rated size_of_couplings(const struct view *view, const struct mode
     return sum;
 }
 
+/* The size of the generalized force on the first coordinate of a ratio. */
+static struct rated size_of_ratio(const struct view *view, int index)
+{
+    const struct coupling *coupling = &view->model->tree->couplings[index];
+    if (!acts(view, index)) return (struct rated){0, 0};
+    const struct rated lambda = multiplier(view, coupling, 0);
+    const double factor = coupling->source->terms[0].factor, sign = factor * lambda.x < 0 ? -factor : factor;
+    return (struct rated){sign * lambda.x, sign * lambda.rate};
+}
+
 /* ---- springs, dampers and actuators */
 
 /* The other end of the load relative to its point: position, velocity and acceleration. */
@@ -197,6 +207,8 @@ static struct rated value_of(const struct view *view, const struct model_absolut
     const bool component = reaction->part <= reaction_force;
     struct rated_force force;
     if (reaction->couplings.count > 0) {
+        if (view->model->tree->couplings[reaction->couplings.first].kind == constraint_ratio)
+            return size_of_ratio(view, reaction->couplings.first);
         if (!component) return size_of_couplings(view, reaction);
         force = force_of_couplings(view, reaction);
     } else if (reaction->load >= 0) {

@@ -57,8 +57,9 @@ void tree_set_scales(const struct tree *tree, struct tree_work *work)
                 if (j > first && work->place[first] >= 0 &&
                     has_arm(&work->rows[first], k, link, row->ports[k].arm))
                     continue;
+                const enum constraint_kind kind = tree->couplings[i].kind;
                 double size = mobility(tree, work, link, row->ports[k].arm);
-                if (tree->couplings[i].kind == constraint_resistance)
+                if (kind == constraint_resistance || kind == constraint_ratio)
                     size *= vec_dot(row->ports[k].force, row->ports[k].force);
                 scale = fmax(scale, size);
                 if (link > 0 && tree->links[link].mass > 0) lightest = fmin(lightest, tree->links[link].mass);

@@ -48,6 +48,9 @@ void reactions_find(struct fbd_model *model);
  * distance (gear_check.c). */
 void couplings_check(struct builder *builder);
 
+/* Reject ratios that follow from others, or leave a coordinate no motion (ratio_check.c). False when memory is out. */
+bool ratios_check(struct builder *builder);
+
 /* Reject contacts between points that do not move on one line (contact_points.c). */
 void contacts_check(struct builder *builder);
 

@@ -151,7 +151,8 @@ static void name_strands(struct fbd_model *model, struct coupling *coupling, int
                                          body_name(model, coupling->end[2 * (size_t)strand].body));
 }
 
-/* A rope's forces on a pulley are named after the body on the other side; all others after the coupling. */
+/* A rope's forces on a pulley are named after the body on the other side, those of a ratio on a body that carries
+ * another one after that one; all others after the coupling. */
 static void name_end(struct fbd_model *model, struct coupling *coupling, int k)
 {
     struct arena *arena = &model->arena;
@@ -169,6 +170,9 @@ static void name_end(struct fbd_model *model, struct coupling *coupling, int k)
     if (coupling->kind == constraint_rope && end->radius > 0 && coupling->wound[k > 0] == 0)
         end->name[0] = arena_printf(arena, "%s.%s", coupling->name,
                                     body_name(model, coupling->end[k == 0 ? 1 : k - 1].body));
+    if (coupling->kind == constraint_ratio && coupling->source->terms[k].opposite)
+        end->name[0] =
+            arena_printf(arena, "%s.%s", coupling->name, body_name(model, coupling->end[k - 1].body));
 }
 
 static void name_rows(struct arena *arena, struct coupling *coupling)

@@ -202,7 +202,7 @@ bool plan_build(struct builder *builder)
     add_other_loads(builder, joined, (int)model->body_count);
     pack(builder);
     contacts_check(builder);
-    if (!tree_finish(model) || !scalar_equations_collect(builder)) return false;
+    if (!ratios_check(builder) || !tree_finish(model) || !scalar_equations_collect(builder)) return false;
     find_constant_slots(model);
     return true;
 }

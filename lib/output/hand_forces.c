@@ -20,11 +20,12 @@ static bool is_surface(const struct coupling *coupling)
     return coupling->law->surface || coupling->kind == constraint_slot;
 }
 
-/* True if the force of a coupling has a direction of its own there; false for a rope that passes over a point
- * of the body. */
+/* True if the force of a coupling has a direction of its own there, as that of a coordinate; false for a rope that
+ * passes over a point of the body. */
 static bool coupling_has_size(const struct coupling *coupling, int end)
 {
     bool corner = coupling->law->way && !coupling->law->strands && end > 0 && end + 1 < coupling->end_count;
+    if (coupling->kind == constraint_ratio) return true;
     return coupling->law->strands || (coupling->law->length && !corner) || is_surface(coupling);
 }
 
@@ -39,6 +40,7 @@ static double coupling_size(const struct fbd_model *model, const struct coupling
         return tension[place->strand];
     }
     if (coupling->law->length) return -row->lambda;
+    if (coupling->kind == constraint_ratio) return row->lambda * coupling->source->terms[place->end].factor;
     struct vec normal = {0, 0};
     for (int i = 0; i < row->port_count; i++)
         if (row->ports[i].end == place->end) normal = vec_add(normal, row->ports[i].force);

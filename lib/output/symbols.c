@@ -12,7 +12,7 @@
 /* One force of the scene, in any diagram. */
 struct force_key {
     const char *letter;
-    enum key_of { of_load, of_coupling, of_corner, of_joint } of;
+    enum key_of { of_load, of_coupling, of_corner, of_joint } of; /* of_corner: of one end of a coupling */
     int index;
     int owner;   /* the body on which it acts in the sense of its symbol; no_body: at each end */
     bool moment; /* at all times */
@@ -55,10 +55,19 @@ static bool is_corner(const struct coupling *coupling, int k)
     return coupling->law->way && !coupling->law->strands && k > 0 && k + 1 < coupling->end_count;
 }
 
-/* True for rolling resistance, and for the stop of a pivot. */
-static bool stops_turning(const struct fbd_model *model, const struct coupling *coupling)
+/* The end of a ratio at the body that has the coordinate of end k. */
+static int bearing_end(const struct coupling *coupling, int k)
+{
+    return coupling->source->terms[k].opposite ? k - 1 : k;
+}
+
+/* True for rolling resistance, for the ratio of an angle, and for the stop of a pivot. */
+static bool is_couple(const struct fbd_model *model, const struct coupling *coupling, int k)
 {
     if (coupling->kind == constraint_resistance) return true;
+    if (coupling->kind == constraint_ratio)
+        return coupling->source->terms[k].coordinate ==
+               model->bodies[coupling->end[bearing_end(coupling, k)].body].joint->angle;
     return coupling->kind == constraint_contact && coupling->source->contact.stop != 0 &&
            model->bodies[coupling->end[0].body].joint->has_axis;
 }
@@ -83,10 +92,14 @@ static bool key_of_coupling(const struct fbd_model *model, int b, const char *na
     struct coupling_place place;
     if (!coupling_of_force(model, b, name, &place)) return false;
     const struct coupling *coupling = &model->tree->couplings[place.coupling];
-    const bool moment = stops_turning(model, coupling);
-    if (is_corner(coupling, place.end))
-        *key =
-            (struct force_key){"F", of_corner, most_constraint_ends * place.coupling + place.end, b, false};
+    const bool moment = is_couple(model, coupling, place.end), ratio = coupling->kind == constraint_ratio;
+    const int end = ratio ? bearing_end(coupling, place.end) : place.end;
+    if (ratio || is_corner(coupling, place.end))
+        *key = (struct force_key){.letter = moment ? "M" : "F",
+                                  .of = of_corner,
+                                  .index = most_constraint_ends * place.coupling + end,
+                                  .owner = ratio ? coupling->end[end].body : b,
+                                  .moment = moment};
     else
         *key = (struct force_key){.letter = moment ? "M" : coupling->law->letters[place.part],
                                   .of = of_coupling,

@@ -146,12 +146,15 @@ static void pull_taut(struct fbd_state *state)
     }
 }
 
-static void add_miss(const struct fbd_model *model, const char *name, double off, bool by_velocity,
+static void add_miss(const struct fbd_model *model, const struct miss *miss, bool by_velocity,
                      struct text *text)
 {
+    const struct coupling *coupling = &model->tree->couplings[model->tree->coupling_of_row[miss->row]];
     char unit[24];
     unit_name(by_velocity ? DIM_VELOCITY : DIM_LENGTH, model->scene->units, unit, sizeof unit);
-    text_printf(text, "`%s` is off by %.3g %s%s", name, off, unit, by_velocity ? " in velocity" : "");
+    const char *angle = by_velocity ? "rad/s" : "rad";
+    text_printf(text, "`%s` is off by %.3g %s%s", coupling->name, miss->off,
+                coupling->source->angular ? angle : unit, by_velocity ? " in velocity" : "");
 }
 
 /* Two pins of one point. The distance of their other ends is the difference of their rows, for any position
@@ -207,8 +210,8 @@ static void list_excluded(struct fbd_state *state, double length, struct text *l
 
 /* Describe the violation and the nearest consistent state; false when that differs by rounding only, as at
  * rest, where speeds have no scale. */
-static bool tell(const struct fbd_state *state, struct fbd_state *other, const char *name,
-                 const struct miss *miss, bool by_velocity, struct text *lack)
+static bool tell(const struct fbd_state *state, struct fbd_state *other, const struct miss *miss,
+                 bool by_velocity, struct text *lack)
 {
     struct text changes = {0};
     state_copy(other, state);
@@ -217,7 +220,7 @@ static bool tell(const struct fbd_state *state, struct fbd_state *other, const c
     bool closed = state_project(other, false),
          differs = !closed || list_changes(&changes, state, other, miss->length);
     if (differs) {
-        add_miss(state->model, name, miss->off, by_velocity, lack);
+        add_miss(state->model, miss, by_velocity, lack);
         text_add(lack, ". ");
         if (closed)
             text_printf(lack, "Nearest is %s; or let bodies find their place, `initial: {assemble: true}`",
@@ -321,7 +324,7 @@ bool fit_lack(struct fbd_state *state, struct fbd_state *other, struct pos *at, 
     if (miss->row < 0) return false;
     const char *name = tree->couplings[tree->coupling_of_row[miss->row]].name;
     if (at) *at = place_of(state->model, miss->row);
-    if (isfinite(miss->off)) return tell(state, other, name, miss, miss == &velocity, lack);
+    if (isfinite(miss->off)) return tell(state, other, miss, miss == &velocity, lack);
     text_printf(lack, "`%s` joins points that are at one place: it has no direction. Move them apart", name);
     return true;
 }

@@ -21,6 +21,7 @@ struct coupling_keys {
     const struct node *x, *y, *from, *to; /* slot */
     const struct node *since, *until;     /* conditions at which a constraint begins and ends */
     const struct node *force;             /* actuator */
+    const struct node *terms;             /* ratio: the mapping itself */
     double stiffness, free_length, coefficient, length, radius, tension, along;
     bool inside, crossed, closed;
     struct value mu_s, mu_k, restitution, reel, moment, surface_speed, resistance;
@@ -30,11 +31,12 @@ struct coupling_keys {
 /* Kinds of constraints between points or angles of bodies. */
 enum constraint_kind {
     /* in the order of --explain */
-    constraint_pin,  /* two points coincide */
-    constraint_rod,  /* constant distance of two points */
-    constraint_gear, /* two circles roll on each other without slip; radius below zero: internal teeth */
-    constraint_rack, /* a circle rolls on a line of a body without slip */
-    constraint_roll, /* a circle on a line of the ground or of a body */
+    constraint_pin,   /* two points coincide */
+    constraint_rod,   /* constant distance of two points */
+    constraint_gear,  /* two circles roll on each other without slip; radius below zero: internal teeth */
+    constraint_rack,  /* a circle rolls on a line of a body without slip */
+    constraint_ratio, /* a linear relation of coordinates */
+    constraint_roll,  /* a circle on a line of the ground or of a body */
     constraint_resistance, /* the rolling resistance of the roll before it: a moment between both bodies */
     constraint_slot,       /* a point on a line or curve of a body */
     constraint_groove,     /* the same with friction */
@@ -65,6 +67,13 @@ struct contact_law {
 
 enum { most_constraint_ends = 8 };
 
+/* An end of a ratio: the body that has a coordinate, or the one that it moves on, which has the opposite force. */
+struct ratio_term {
+    int coordinate; /* its number in the joint of the body */
+    double factor;  /* of the coordinate: of a length a number, of an angle a length */
+    bool opposite;  /* at the body on which that of the end before moves */
+};
+
 /* The rope leaves the disc at one of two tangency points: the one that is farther to this side. */
 enum wound_side { wound_left = 1, wound_right, wound_top, wound_bottom };
 
@@ -79,6 +88,8 @@ struct constraint {
     int side[most_constraint_ends];      /* rope: +1 when it goes counter-clockwise round the disc */
     int wound[2];                        /* rope: enum wound_side at its first and last point; 0: not wound */
     double spare[2];                     /* wound length at the start; HUGE_VAL: unlimited */
+    const struct ratio_term *terms;      /* ratio: of its ends; else NULL */
+    bool angular;                        /* ratio: the sum is an angle, times a unit of length */
     bool crossed;                        /* belt */
     double turns;              /* capstan: whole turns round the disc, in addition to the visible angle */
     const struct curve *curve; /* slot: in the frame of end 1 at its point; NULL for the line along `along` */

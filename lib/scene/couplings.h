@@ -35,6 +35,9 @@ bool wheels_read(struct reader *reader, const struct coupling_keys *keys, struct
 bool rack_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
 bool roll_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
 
+/* A linear relation of coordinates (read_ratio.c). */
+bool ratio_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
+
 /* A point on a line or curve (read_slot.c). */
 bool slot_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
 

@@ -10,6 +10,11 @@
 
 enum { most_fields = 40 };
 
+static bool is_field(const struct field *field, const char *key)
+{
+    return strcmp(field->key, key) == 0 || (field->type == field_terms && strchr(key, '.'));
+}
+
 /* The field with this key and its offset in the structure of the group; the base of the group comes first. */
 static const struct field *find_field(const struct group *group, const char *key, size_t *offset)
 {
@@ -21,7 +26,7 @@ static const struct field *find_field(const struct group *group, const char *key
         }
     }
     for (size_t i = 0; i < group->count; i++) {
-        if (strcmp(group->fields[i].key, key) != 0) continue;
+        if (!is_field(&group->fields[i], key)) continue;
         *offset = group->fields[i].offset;
         return &group->fields[i];
     }
@@ -322,7 +327,8 @@ static bool read_field(struct reader *reader, const struct field *field, const s
     case field_scalar:
     case field_list:
     case field_map: return read_node(reader, field, node, place);
-    case field_ignored: return true;
+    case field_ignored:
+    case field_terms: return true;
     case field_later:
         diag_add(reader->errors, FBD_ERROR, "not-supported", pair->at, field->doc,
                  "`%s` is not in this version", key);

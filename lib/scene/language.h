@@ -29,6 +29,7 @@ enum field_type {
     field_scalar,  /* const struct node *, one piece of text */
     field_list,    /* const struct node * */
     field_map,     /* const struct node * */
+    field_terms,   /* all keys with a dot, read by their own code; its own key is for documents */
     field_ignored, /* read by other programs */
     field_later,   /* no meaning in this version (`not-supported`); `doc` is the hint */
 };

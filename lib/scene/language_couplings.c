@@ -105,6 +105,14 @@ static const struct field gear_fields[] = {
 static const struct group gear_group =
     BEGINNING_GROUP("a gear", gear_fields, "two pitch circles that roll on each other without slip");
 
+static const struct field ratio_fields[] = {
+    FIELD_PLAIN("body.coordinate", field_terms, a_number, 0, 0,
+                "the factor of that coordinate; of an angle among lengths a length, as `wheel.theta: 0.2 m`"),
+};
+static const struct group ratio_group =
+    BEGINNING_GROUP("a ratio", ratio_fields,
+                    "coordinates in proportion: the sum of factor times rate is zero");
+
 static const struct field rope_fields[] = {
     FIELD_ENTRIES(COUPLING(through), "through", field_list, required, each_word, NULL,
                   "its path: ends and points as in `between`; a disc that turns is a pulley"),
@@ -232,6 +240,7 @@ static const struct kind kinds[] = {
     {"gear", coupling_constraint + constraint_gear, &gear_group, ~0u, NULL, NULL},
     {"belt", coupling_constraint + constraint_belt, &belt_group, ~0u, NULL, NULL},
     {"rack", coupling_constraint + constraint_rack, &rack_group, ~0u, NULL, NULL},
+    {"ratio", coupling_constraint + constraint_ratio, &ratio_group, ~0u, NULL, NULL},
     {"roll", coupling_constraint + constraint_roll, &roll_group, ~0u, NULL, NULL},
     {"slot", coupling_constraint + constraint_slot, &slot_group, ~0u, NULL, NULL},
     {"contact", coupling_constraint + constraint_contact, &contact_group, ~0u, NULL, NULL},
@@ -263,6 +272,11 @@ const struct constraint_law constraint_laws[constraint_kinds] = {
         .words = "rack: a circle and a line move along together",
         .not_as_c = "a rack is a constraint beside the joints",
         .rows = 1, .line = true},
+    [constraint_ratio] = {
+        .read = ratio_read, .drawing = "ratio", .letters = {"F"},
+        .words = "ratio: a sum of coordinates, each times its factor, stays constant",
+        .not_as_c = "a ratio is a constraint beside the joints",
+        .rows = 1},
     [constraint_roll] = {
         .read = roll_read, .drawing = "roll", .letters = {"N", "f"},
         .words = "roll: a circle on a line",

@@ -113,7 +113,7 @@ struct symbol names_absolute(struct reader *reader, enum place place, const stru
     if (wanted->kind == absolute_mass) dim = DIM_MASS;
     if (wanted->kind == absolute_mass_rate) dim = dim_over(DIM_MASS, DIM_TIME);
     if (wanted->kind == absolute_force) dim = DIM_NONE; /* force_symbol sets it */
-    if (wanted->kind == absolute_reaction) dim = DIM_FORCE;
+    if (wanted->kind == absolute_reaction) dim = wanted->part == reaction_moment ? DIM_MOMENT : DIM_FORCE;
     if (wanted->kind == absolute_inertia) dim = (struct dim)DIM_INIT(1, 2, 0);
     return coordinate(dim, 1 + scene_size(scene) + hand_slots + k, wanted->kind == absolute_angle);
 }

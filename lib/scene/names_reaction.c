@@ -11,7 +11,7 @@
 static const struct symbol unknown = {.kind = symbol_unknown};
 static const struct symbol failed_before = {.kind = symbol_failed};
 
-static const char *const part_names[] = {"x", "y", "force", "tension", "normal", "friction"};
+static const char *const part_names[] = {"x", "y", "force", "tension", "normal", "friction", "moment"};
 enum { part_count = sizeof part_names / sizeof *part_names };
 
 /* -1 if there is none of that name. */
@@ -36,7 +36,8 @@ static bool has_part(const struct constraint *constraint, enum reaction_part par
     case constraint_slot: return part <= reaction_force || part == reaction_normal;
     case constraint_roll:
     case constraint_groove:
-    case constraint_contact: return part != reaction_tension;
+    case constraint_contact: return part != reaction_tension && part != reaction_moment;
+    case constraint_ratio: return part == (constraint->radius[0] > 0 ? reaction_moment : reaction_force);
     default: return part <= reaction_force;
     }
 }

@@ -107,6 +107,7 @@ static bool read_coupling(struct reader *reader, const struct node *node, bool c
                           .body = ground_body};
     struct scope scope = names_scope(&names);
     bool fine = fields_read(reader, chosen.kind->group, chosen.node, chosen.at, &scope, &keys);
+    keys.terms = chosen.node;
     *name = (struct coupling_name){keys.name, chosen.kind, chosen.at, {ground_body, ground_body}};
     if (chosen.kind->value >= coupling_constraint) {
         /* `slip` refers to the next constraint by its number: count that only after both coefficients are

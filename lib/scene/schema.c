@@ -203,7 +203,7 @@ static void add_fields(struct text *text, const struct group *group, bool *first
     if (group->base) add_fields(text, group->base, first);
     for (size_t i = 0; i < group->count; i++) {
         const struct field *field = &group->fields[i];
-        if (field->type == field_later) continue;
+        if (field->type == field_later || field->type == field_terms) continue;
         add_key(text, first, field->key);
         add_field(text, field);
     }
@@ -229,6 +229,22 @@ static bool has_required(const struct group *group)
     return has_required(group->base);
 }
 
+/* The field of all keys with a dot, or NULL. */
+static const struct field *terms_of(const struct group *group)
+{
+    for (size_t i = 0; i < group->count; i++)
+        if (group->fields[i].type == field_terms) return &group->fields[i];
+    return NULL;
+}
+
+static void add_terms(struct text *text, const struct field *terms)
+{
+    text_add(text,
+             "\"minProperties\": 2,\n\"patternProperties\": {\"[.]\": {\"type\": [\"number\", \"string\"], ");
+    add_doc(text, terms->doc);
+    text_add(text, "}},\n");
+}
+
 /* The members of the schema of a mapping. */
 static void add_members(struct text *text, const struct group *group, const char *name)
 {
@@ -237,7 +253,9 @@ static void add_members(struct text *text, const struct group *group, const char
     add_doc(text, group->doc);
     text_add(text, ",\n\"properties\": {\n");
     add_fields(text, group, &first);
-    text_add(text, "},\n\"additionalProperties\": false");
+    text_add(text, "},\n");
+    if (terms_of(group)) add_terms(text, terms_of(group));
+    text_add(text, "\"additionalProperties\": false");
     if (list_required(text, group, false)) text_add(text, "]");
     const char *keys = schema_needs(name);
     if (keys) {
