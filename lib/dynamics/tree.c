@@ -5,10 +5,12 @@
 #include "dynamics/tree.h"
 
 #include <float.h>
+#include <math.h>
 #include <string.h>
 
 #include "dynamics/closed_loops.h"
 #include "dynamics/friction.h"
+#include "dynamics/journals.h"
 #include "dynamics/tree_bare.h"
 #include "dynamics/tree_system.h"
 
@@ -165,6 +167,7 @@ void tree_slots(const struct fbd_model *model, const struct instant *at, double 
         int i = tree->watched[k];
         const struct tree_link *link = &tree->links[i];
         const struct tree_state *s = &work->links[i];
+        if (link->journal) journal_aim(tree, work, i, s->F.force);
         if (link->normal_slot >= 0)
             slots[link->normal_slot] = -vec_dot(tree_normal(tree, work, i), s->F.force);
         if (link->pair < 0) continue;
@@ -220,7 +223,7 @@ static void set_joint_forces(const struct fbd_model *model, const struct instant
     }
     for (int k = 0; k < tree->joined_watched; k++) {
         const struct tree_link *link = &tree->links[tree->watched[k]];
-        if (link->pair >= 0 && link->kind == motion_pivot && at->slip[link->pair] != stick)
+        if (link->pair >= 0 && link->kind == motion_pivot && !link->journal && at->slip[link->pair] != stick)
             x[tree->watched[k]].g -=
                 slip_side(at->slip[link->pair]) * formula_value(&model->plan.modes[link->pair].mu_k, at);
     }
@@ -282,8 +285,8 @@ static void add_accelerations(const struct tree *tree, struct tree_work *work)
     }
 }
 
-/* Solve for the multipliers, given the accelerations without them. */
-static void solve_system(const struct fbd_model *model, const struct instant *at, const double *a)
+/* Solve for the multipliers, given the accelerations without them, for fixed directions of journals. */
+static void solve_directed(const struct fbd_model *model, const struct instant *at, const double *a)
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
@@ -296,6 +299,19 @@ static void solve_system(const struct fbd_model *model, const struct instant *at
     tree_want_massless(tree, work, a, work->z);
     tree_system_factor(model, at);
     tree_system_solve(model, at, work->z);
+}
+
+/* The same, with the directions of the resulting reactions. Where there are none the result is no number. */
+static void solve_system(const struct fbd_model *model, const struct instant *at, const double *a)
+{
+    enum { most_passes = 60 };
+    const struct tree *tree = model->tree;
+    bool turns = tree->journal_count > 0;
+    if (turns) journals_aim(tree, at);
+    solve_directed(model, at, a);
+    for (int pass = 0; turns && (turns = journals_turn(tree, at)) && pass < most_passes; pass++)
+        solve_directed(model, at, a);
+    if (turns) at->tree->unit[tree->links[tree->pairs[0]].coordinate] = (double)NAN;
 }
 
 /* Add the forces of constraints and of slipping slides. */
