@@ -162,6 +162,6 @@ bool friction_takes_impulses(const struct fbd_model *model, const struct mode *m
 {
     const bool guided = mode->kind == mode_tangent
                             ? coupling_is_guide(&model->tree->couplings[mode->coupling])
-                            : mode->kind == mode_joint && mode->normal_slot >= 0;
+                            : mode->kind == mode_joint && mode->normal_slot >= 0 && !mode->moment;
     return guided && friction_rubs(mode);
 }

@@ -24,6 +24,7 @@
 #include <string.h>
 
 #include "dynamics/constraint.h"
+#include "dynamics/journals.h"
 #include "dynamics/world_refs.h"
 
 /* Give friction that begins to slip at its limit a small acceleration in the slip direction. Its relative
@@ -273,5 +274,5 @@ bool modes_settle(struct fbd_state *state, const struct decided *decided)
     const bool settled = settle_all(state, decided);
     state->tree->tentative = false;
     if (settled && tree->massless_count > 0 && state->model->plan.mode_count > 0) release_idle_ropes(state);
-    return settled;
+    return settled && journals_determined(state);
 }

@@ -5,10 +5,12 @@
 #include "dynamics/tree.h"
 
 #include <float.h>
+#include <math.h>
 #include <string.h>
 
 #include "dynamics/closed_loops.h"
 #include "dynamics/friction.h"
+#include "dynamics/journals.h"
 #include "dynamics/tree_bare.h"
 #include "dynamics/tree_system.h"
 
@@ -182,7 +184,11 @@ void tree_coupling_slots(const struct fbd_model *model, const struct instant *at
 void tree_slots(const struct fbd_model *model, const struct instant *at, double *slots)
 {
     const struct tree *tree = model->tree;
-    for (int k = 0; k < tree->joined_watched; k++) tree_link_slots(model, at, tree->watched[k], slots);
+    for (int k = 0; k < tree->joined_watched; k++) {
+        int i = tree->watched[k];
+        if (tree->links[i].journal) journal_aim(tree, at->tree, i, at->tree->links[i].F.force);
+        tree_link_slots(model, at, i, slots);
+    }
     for (int i = 0; i < tree->coupling_count; i++) tree_coupling_slots(model, at, i, slots);
 }
 
@@ -226,7 +232,7 @@ static void set_joint_forces(const struct fbd_model *model, const struct instant
     }
     for (int k = 0; k < tree->joined_watched; k++) {
         const struct tree_link *link = &tree->links[tree->watched[k]];
-        if (link->pair >= 0 && link->kind == motion_pivot && at->slip[link->pair] != stick)
+        if (link->pair >= 0 && link->kind == motion_pivot && !link->journal && at->slip[link->pair] != stick)
             x[tree->watched[k]].g -=
                 slip_side(at->slip[link->pair]) * formula_value(&model->plan.modes[link->pair].mu_k, at);
     }
@@ -288,8 +294,8 @@ static void add_accelerations(const struct tree *tree, struct tree_work *work)
     }
 }
 
-/* Solve for the multipliers, given the accelerations without them. */
-static void solve_system(const struct fbd_model *model, const struct instant *at, const double *a)
+/* Solve for the multipliers, given the accelerations without them, for fixed directions of journals. */
+static void solve_directed(const struct fbd_model *model, const struct instant *at, const double *a)
 {
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
@@ -302,6 +308,19 @@ static void solve_system(const struct fbd_model *model, const struct instant *at
     tree_want_massless(tree, work, a, work->z);
     tree_system_factor(model, at);
     tree_system_solve(model, at, work->z);
+}
+
+/* The same, with the directions of the resulting reactions. Where there are none the result is no number. */
+static void solve_system(const struct fbd_model *model, const struct instant *at, const double *a)
+{
+    enum { most_passes = 60 };
+    const struct tree *tree = model->tree;
+    bool turns = tree->journal_count > 0;
+    if (turns) journals_aim(tree, at);
+    solve_directed(model, at, a);
+    for (int pass = 0; turns && (turns = journals_turn(tree, at)) && pass < most_passes; pass++)
+        solve_directed(model, at, a);
+    if (turns) at->tree->unit[tree->links[tree->pairs[0]].coordinate] = (double)NAN;
 }
 
 /* Add the forces of constraints and of slipping slides. */

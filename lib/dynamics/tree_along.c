@@ -58,7 +58,8 @@ static void vary_joint_forces(const struct fbd_model *model, const struct instan
     for (int k = 0; k < tree->joined_watched; k++) {
         const struct tree_link *link = &tree->links[tree->watched[k]];
         double d_mu;
-        if (link->pair < 0 || link->kind != motion_pivot || at->slip[link->pair] == stick) continue;
+        if (link->pair < 0 || link->kind != motion_pivot || link->journal || at->slip[link->pair] == stick)
+            continue;
         formula_along(&model->plan.modes[link->pair].mu_k, at, along, &d_mu);
         work->x[tree->watched[k]].g -= at->slip[link->pair] * d_mu;
     }

@@ -7,6 +7,7 @@
 
 #include "dynamics/constraint.h"
 #include "dynamics/contact.h"
+#include "dynamics/journals.h"
 #include "dynamics/modes.h"
 #include "dynamics/tree_driven.h"
 #include "dynamics/tree_system.h"
@@ -64,6 +65,25 @@ static void apply_unit(struct fbd_state *state, int pair)
         state->tree->x[link_of(state, pair)].g = 1;
 }
 
+/* The reactions of guide g, if it is a journal. */
+static struct vec *reactions_of(const struct gathered *all, size_t g)
+{
+    const struct mode *mode = mode_of(all->state, all->guide[g]);
+    return all->reactions && mode->moment ? all->reactions + g * (all->problem.count + 1) : NULL;
+}
+
+static void add_reactions(struct gathered *all, size_t k)
+{
+    for (size_t g = 0; g < all->problem.guide_count; g++) {
+        struct vec *reactions = reactions_of(all, g);
+        if (!reactions) continue;
+        const int i = link_of(all->state, all->guide[g]);
+        const struct tree_rhs *x = &all->state->tree->x[i];
+        const struct wrench F = inertia_wrench(&all->state->tree->links[i].I, x->A, x->p);
+        reactions[1 + k] = vec_add(reactions[1 + k], F.force);
+    }
+}
+
 /* Add to column k the response in work->x and work->unit: accelerations along the constraints and normal
  * forces of the guides. */
 static void add_answers(struct gathered *all, size_t k)
@@ -83,6 +103,7 @@ static void add_answers(struct gathered *all, size_t k)
     for (size_t g = 0; g < all->problem.guide_count; g++)
         if (mode_of(state, all->guide[g])->coupling < 0)
             all->problem.B[g * count + k] += tree_normal_in(tree, state->tree, link_of(state, all->guide[g]));
+    if (all->reactions) add_reactions(all, k);
 }
 
 /* The relative response below which the couplings make a constraint immovable: it moves by rounding only. */
@@ -196,7 +217,11 @@ static void set_free(struct gathered *all)
     struct fbd_state *state = all->state;
     accelerations(state->model, &all->at, state->scratch, state->a);
     for (size_t i = 0; i < all->problem.count; i++) all->problem.holds[i].free = hold_answer(all, i);
-    for (size_t g = 0; g < all->problem.guide_count; g++) all->problem.guides[g].free = guide_answer(all, g);
+    for (size_t g = 0; g < all->problem.guide_count; g++) {
+        struct vec *reactions = reactions_of(all, g);
+        all->problem.guides[g].free = guide_answer(all, g);
+        if (reactions) reactions[0] = state->tree->links[link_of(state, all->guide[g])].F.force;
+    }
     if (all->shares.units == 0) return;
     if (state->sliding->failed) all->shares.units = 0;
     for (int unit = 0; unit < all->shares.units; unit++) find_share_answers(all, unit);
@@ -232,6 +257,7 @@ void gathered_free(struct gathered *all)
 {
     holds_free(&all->problem);
     free(all->pair);
+    free(all->reactions);
     free(all->shares.c);
 }
 
@@ -307,6 +333,10 @@ bool gathered_find(struct gathered *all, struct fbd_state *state, const struct d
         all->trial[p] = loose;
     }
     if (!holds_new(&all->problem, count, guides)) return false;
+    if (state->model->tree->journal_count > 0 && !at.sliding) { /* else their directions are those at the start */
+        all->reactions = calloc(guides * (count + 1) + 1, sizeof *all->reactions);
+        if (!all->reactions) return false;
+    }
     if (at.sliding && shares_answer && !make_room_for_shares(all)) return false;
     guides = 0;
     for (size_t i = 0; i < count; i++) {
@@ -329,6 +359,27 @@ bool gathered_find(struct gathered *all, struct fbd_state *state, const struct d
         if (all->still[k]) hold_still(all, k);
     }
     return true;
+}
+
+bool gathered_turn_journals(struct gathered *all)
+{
+    const double negligible = 1e-12;
+    struct hold_problem *problem = &all->problem;
+    double change = 0;
+    for (size_t g = 0; g < problem->guide_count; g++) {
+        const struct vec *reactions = reactions_of(all, g);
+        if (!reactions) continue;
+        const int i = link_of(all->state, all->guide[g]);
+        struct vec F = reactions[0];
+        for (size_t k = 0; k < problem->count; k++)
+            F = vec_add(F, vec_scale(problem->holds[k].force, reactions[1 + k]));
+        change = fmax(change, journal_aim(all->state->model->tree, all->state->tree, i, F));
+        const struct vec n = tree_normal(all->state->model->tree, all->state->tree, i);
+        problem->guides[g].free = vec_dot(n, reactions[0]);
+        for (size_t k = 0; k < problem->count; k++)
+            problem->B[g * problem->count + k] = vec_dot(n, reactions[1 + k]);
+    }
+    return change > negligible;
 }
 
 void gathered_set_out(struct fbd_state *state, const int *gives)

@@ -30,6 +30,8 @@ struct gathered {
     struct hold_problem problem;
     int *pair, *hold; /* the mode of a hold; the hold of a mode, or -1 */
     int *guide;       /* of a guide: the mode whose normal force it has */
+    struct vec *reactions; /* or NULL: of guides that are journals, count + 1 each, their reaction without forces
+                            * of the constraints and those by a unit of each */
     int *trial;       /* modes with all of them loose */
     int *still;       /* of a hold: still_..., 0 if it is movable */
     int *forced;
@@ -62,6 +64,10 @@ void gathered_free(struct gathered *all);
  * is as consistent, 0 for none, or keeps_still. */
 enum holds_found gathered_solve(struct fbd_state *state, const struct decided *decided, int *forced,
                                 int *barely, bool shares_answer);
+
+/* Direct the normal forces of journals along their reactions by the present forces of the constraints. True when
+ * that changes the problem. */
+bool gathered_turn_journals(struct gathered *all);
 
 /* Set constraints that leave a dead centre, of those in `gives` (modes, else 0), to slip in the direction of
  * the motion to second order, whatever the force that held them. */

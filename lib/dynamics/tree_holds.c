@@ -32,7 +32,7 @@ static double accelerated(const struct fbd_state *state, int pair)
     const struct tree_state *link = &state->tree->links[link_of(state, pair)];
     const struct mode *mode = mode_of(state, pair);
     struct instant at = state_instant(state);
-    double inertia = mode->normal_slot >= 0 ? link->mass : link->I_O;
+    double inertia = mode->moment ? link->I_O : link->mass;
     return inertia > 0 ? friction_at(state->model, pair, &at, state->scratch).limit / inertia : 0;
 }
 

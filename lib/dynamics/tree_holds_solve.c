@@ -62,6 +62,18 @@ static int barely_holds(const struct gathered *all, size_t i)
     return hold->force > 0 ? -1 : 1;
 }
 
+/* Decide, with the directions of the resulting reactions in journals. look() verifies the modes. */
+static enum holds_found decide_directed(struct gathered *all)
+{
+    enum { most_passes = 30 };
+    enum holds_found found = holds_decide(&all->problem);
+    for (int pass = 0; all->reactions && pass < most_passes && found <= holds_several; pass++) {
+        if (!gathered_turn_journals(all)) break;
+        found = holds_decide(&all->problem);
+    }
+    return found;
+}
+
 enum holds_found gathered_solve(struct fbd_state *state, const struct decided *decided, int *forced,
                                 int *barely, bool shares_answer)
 {
@@ -70,7 +82,7 @@ enum holds_found gathered_solve(struct fbd_state *state, const struct decided *d
     if (gathered_find(&all, state, decided, forced, shares_answer)) {
         tree_find_unpressed(&all, decided, forced);
         all.problem.basic = true; /* for barely_holds */
-        found = holds_decide(&all.problem);
+        found = decide_directed(&all);
         if (found != holds_decided) state->holds = trouble_of(&all, found);
     }
     for (size_t i = 0; found <= holds_several && i < all.problem.count; i++) {

@@ -356,7 +356,7 @@ static void count_around(struct run *run)
     if (run->recent.around > most_around && run->end.outcome == FBD_GOING) run_fail_chatter(run);
 }
 
-static void fail_unsettled(struct run *run)
+void run_fail_unsettled(struct run *run)
 {
     const struct sliding *s = run->state->sliding;
     int kink = s && s->why ? s->blamed : -1, load = kink >= 0 ? run->model->plan.kinks[kink].load : -1;
@@ -442,7 +442,7 @@ static void apply_once(struct run *run, const bool *timed, const bool *moving)
     run->ended = false; /* settling follows */
     if (run->contacts.due) run_contacts(run);
     run->contacts.due = false;
-    if (!settle(run) && run->end.outcome == FBD_GOING) fail_unsettled(run);
+    if (!settle(run) && run->end.outcome == FBD_GOING) run_fail_unsettled(run);
     run_check_drives(run);
     run_check_counts(run);
     log_mode_changes(run, first, moving);

@@ -441,6 +441,7 @@ void run_check_progress(struct run *run);
 void run_fail_step(struct run *run, enum stepper_status status);
 void run_fail_pole(struct run *run, const struct pole *pole);
 void run_fail_chatter(struct run *run);
+void run_fail_unsettled(struct run *run);
 /* `load` is the load called `name`, or -1: a user event, or an expression in one; `state`: in a user state. */
 void run_fail_chatter_of(struct run *run, int load, bool state, const char *name);
 void run_fail_progress(struct run *run, double gain);

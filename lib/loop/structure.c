@@ -63,11 +63,13 @@ static bool reads_rate(const struct fbd_model *model, const struct value *value)
     return false;
 }
 
-/* Slipping friction has the sign of its mode, and depends on the velocity through its coefficients only. */
+/* Slipping friction has the sign of its mode, and depends on the velocity through its coefficients only; in a journal
+ * bearing also through the reaction. */
 static bool depends_on_velocity(const struct fbd_model *model, const struct load *load)
 {
     enum law_rate rate = load_law(load)->rate;
     if (rate != rate_by_formulas) return rate == rate_always;
+    if (load->journal) return true;
     struct load copy = *load;
     struct value *formulas[most_formulas_of_a_load];
     load_formulas(&copy, formulas);
@@ -158,7 +160,7 @@ static enum expr_degree degree_of_friction(const struct fbd_model *model, const 
     bool constant = degree_of(model, &load->mu_s) == expr_constant_between &&
                     degree_of(model, &load->mu_k) == expr_constant_between &&
                     (!speed || expr_is_constant(speed));
-    return constant ? expr_constant_between : expr_nonlinear;
+    return constant && !load->journal ? expr_constant_between : expr_nonlinear;
 }
 
 /* A spring or damper along the body's coordinate; between two points only the spring without free length on a

@@ -5,6 +5,7 @@
 
 #include "dynamics/energy.h"
 #include "dynamics/friction.h"
+#include "dynamics/journals.h"
 #include "dynamics/kinematics.h"
 #include "dynamics/rest_system.h"
 #include "expr/table.h"
@@ -205,6 +206,10 @@ void run_check_sides(struct run *run)
 {
     const double slacks = 1e3;
     const struct fbd_model *model = run->model;
+    if (!journals_determined(run->state)) {
+        run_fail_unsettled(run);
+        return;
+    }
     for (size_t pair = 0; pair < model->plan.mode_count; pair++) {
         const struct mode *mode = &model->plan.modes[pair];
         bool rubs = mode->two_sided && mode->normal_slot >= 0 && friction_rubs(mode);

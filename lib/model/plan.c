@@ -41,7 +41,7 @@ static void add_friction(struct builder *builder, struct model_body *body, int i
                         .body = b,
                         .load = index,
                         .coordinate = body->first,
-                        .normal_slot = source->kind == load_friction ? body->normal_slot : -1,
+                        .normal_slot = bearing && !source->journal ? -1 : body->normal_slot,
                         .moment = source->kind != load_friction,
                         .mu_s = builder_formula(builder, &source->mu_s, b, index),
                         .mu_k = builder_formula(builder, &source->mu_k, b, index),
@@ -95,18 +95,21 @@ static bool normal_is_named(const struct fbd_model *model, int b)
     return false;
 }
 
-/* A slide keeps the sum of forces across its line when the normal force is watched, named, or friction needs it. */
+/* A slide keeps the sum of forces across its line when the normal force is watched, named, or friction needs it,
+ * and a pivot its reaction when it has a journal bearing. */
 static void plan_normals(struct fbd_model *model)
 {
     struct plan *plan = &model->plan;
     for (size_t b = 0; b < model->body_count; b++) {
         struct model_body *body = &model->bodies[b];
-        bool rubs = false;
+        bool rubs = false, journal = false;
         int normal = -1;
         for (int i = body->first_load; i < body->first_load + body->load_count; i++) {
             if (model->loads[i].source->kind == load_friction) rubs = true;
             if (model->loads[i].source->kind == load_normal) normal = i;
+            journal |= model->loads[i].source->journal;
         }
+        if (journal && body->joint->has_axis) body->normal_slot = plan->slots++;
         if (normal < 0) continue;
         if (model->loads[normal].source->two_sided && !rubs && !normal_is_named(model, (int)b)) continue;
         body->normal_slot = plan->slots++;

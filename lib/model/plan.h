@@ -64,7 +64,7 @@ enum mode_kind {
 struct mode {
     enum mode_kind kind;
     int body, load, coordinate;
-    int normal_slot; /* -1 for a bearing, whose limits are moments */
+    int normal_slot; /* -1 for a bearing whose limits are moments; of a journal bearing that of its reaction */
     bool moment;     /* friction of a bearing, or rolling resistance: its force is a moment */
     bool two_sided;  /* a guide: friction is proportional to |N| */
     struct formula mu_s, mu_k, surface_speed;

@@ -4,8 +4,8 @@
  *
  * A link is a body with all bodies welded to it: one frame, one mass, one moment of inertia. Links are numbered
  * from 1 so that each comes after the one that it moves on; link 0 is the ground. A body is jointed when it
- * moves on another body, carries one, is an end of a coupling, is driven, moves along a curve, or has a mass
- * that varies. The others stand alone: their links come last,
+ * moves on another body, carries one, is an end of a coupling, is driven, moves along a curve, has a mass that
+ * varies, or a journal bearing. The others stand alone: their links come last,
  * each is a tree of its own, and no force on one depends on the accelerations of another.
  *
  * The reference point O of a link is the axis of its pivot or the origin of its body's frame. Points of a
@@ -55,6 +55,7 @@ struct tree_link {
                           * planar link that stands alone */
     int pair;   /* its dry friction: index into plan.modes, or -1 */
     int normal_slot; /* slot of minus its normal force, or -1 */
+    bool journal;    /* pivot: its friction is that of a journal bearing, see dynamics/journals.h */
     int root;        /* the first link of its tree */
     int end;         /* links from its own number up to this one (not included) move with it */
     /* Inertia that may be added to its joint, see tree_massless.c: of its only coordinate, or mass and moment
@@ -157,6 +158,7 @@ struct tree {
     double mass_ratio;              /* heaviest over lightest link */
     int pair_count;                 /* jointed links whose dry friction depends on a normal force */
     int *pairs;                     /* their numbers */
+    int journal_count;              /* those of them that are journal bearings */
     int watched_count;              /* links whose joint has a normal force or dry friction */
     int *watched;                   /* their numbers, in order */
     int joined_watched;             /* those of them that are jointed: they come first */

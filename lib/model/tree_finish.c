@@ -63,6 +63,8 @@ bool tree_finish(struct fbd_model *model)
         int link = model->bodies[mode->body].place.link;
         tree->links[link].pair = p;
         if (mode->normal_slot >= 0 && !link_is_alone(tree, link)) tree->pairs[tree->pair_count++] = link;
+        tree->links[link].journal = mode->moment && mode->normal_slot >= 0;
+        tree->journal_count += tree->links[link].journal;
     }
     for (int i = 1; i < tree->count; i++) {
         if (tree->links[i].normal_slot < 0 && tree->links[i].pair < 0) continue;

@@ -63,6 +63,7 @@ static bool is_own_slip(const struct fbd_model *model, const struct model_body *
 static unsigned friction_depends(const struct fbd_model *model, const struct model_body *body,
                                  const struct mode *mode)
 {
+    if (mode->moment && mode->normal_slot >= 0) return depends_place | depends_rate; /* its reaction */
     if (formula_is_constant(&mode->mu_k)) return 0;
     const int *slots;
     size_t count = expr_variables(mode->mu_k.expr, &slots);

@@ -31,6 +31,7 @@ static void normal_remark(const struct fbd_state *state, const struct model_body
 static const char *friction_limit(const struct mode *mode, bool kinetic)
 {
     if (mode->normal_slot < 0) return kinetic ? "M_k" : "M_s";
+    if (mode->moment) return "mu r R";
     if (mode->two_sided) return kinetic ? "mu_k |N|" : "mu_s |N|";
     return kinetic ? "mu_k N" : "mu_s N";
 }

@@ -111,11 +111,36 @@ static void contradiction_words(const struct fbd_model *model, int pair, const c
                                "run earlier by an event");
 }
 
+/* See dynamics/journals.h. */
+static void journal_words(const struct fbd_model *model, const struct holds_trouble *holds, const char *when,
+                          struct text *text)
+{
+    const struct mode *mode = &model->plan.modes[holds->pair];
+    text_printf(text, "%s the friction `%s` of the bearing of `%s` is not determined: ", when,
+                model->loads[mode->load].source->name, model->bodies[mode->body].name);
+    if (holds->answer == 0) {
+        text_add(text, "the reaction of its pin is statically indeterminate. Leave out redundant constraints, "
+                       "or give the bearing a moment, `coefficient`");
+        return;
+    }
+    text_add(text, "each newton metre of it changes the limit mu r R by ");
+    text_number(text, holds->answer, 4);
+    text_add(text, " N*m, and from 1 on there may be several solutions or none. Reduce the radius of the "
+                   "journal or its coefficient");
+}
+
+static bool is_journal(const struct mode *mode)
+{
+    return mode->moment && mode->normal_slot >= 0 && mode->coupling < 0;
+}
+
 void unsettled_words(const struct fbd_state *state, const char *when, struct text *text)
 {
     const struct fbd_model *model = state->model;
     const struct holds_trouble *holds = &state->holds;
-    if (holds->found == holds_none) {
+    if (holds->found == holds_none && holds->pair >= 0 && is_journal(&model->plan.modes[holds->pair])) {
+        journal_words(model, holds, when, text);
+    } else if (holds->found == holds_none) {
         text_printf(text,
                     "%s no forces within the limits of friction and contacts agree with the motion: there is "
                     "no solution",

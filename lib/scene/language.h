@@ -223,8 +223,8 @@ struct load_keys {
     struct load load;
     const char *name;
     const struct node *value, *at, *from, *to, *toward, *wind, *velocity;
-    double neutral;
-    struct value coefficient, factor, exhaust;
+    double neutral, radius;
+    struct value coefficient, factor, exhaust, bearing;
     int side, frame;
 };
 

@@ -336,6 +336,10 @@ static const struct field moment_friction_fields[] = {
                 not_negative | slips | stored, "both"),
     FIELD_VALUE(LOAD(surface_speed), "surface_speed", an_angular_velocity, stored,
                 "angular velocity of the bearing; default 0"),
+    FIELD_VALUE(offsetof(struct load_keys, bearing), "bearing", a_number, not_negative,
+                "coefficient mu of a journal bearing: a moment of at most mu r R, R the reaction of the pin"),
+    FIELD_NUMBER(offsetof(struct load_keys, radius), "radius", a_length, positive,
+                 "radius r of the journal, with `bearing`"),
 };
 static const struct group moment_friction_group =
     LOAD_GROUP("`friction`", "coefficient", moment_friction_fields, "dry friction of a bearing, as a moment");

@@ -178,8 +178,10 @@ struct load {
      * in still air, c w; for any other the whole drag, -(c + k |v - w|) (v - w). */
     struct value wind_x, wind_y;
 
-    /* friction: coefficients (force) or limits in N m (moment) */
+    /* friction: coefficients (force) or limits in N m (moment); of a journal bearing, where the moment is in
+     * proportion to the reaction of the pin, both are the radius of its friction circle, mu r */
     struct value mu_s, mu_k;
+    bool journal;
     struct value
         surface_speed; /* velocity of the surface along +x (moment: angular velocity of the bearing) */
 

@@ -3,6 +3,7 @@
  * Laws of forces and moments: the conditions and values that involve several keys, of springs, dampers,
  * friction, normal forces and potentials.
  */
+#include "base/format.h"
 #include "scene/load_entry.h"
 #include "scene/slip_law.h"
 
@@ -100,9 +101,37 @@ static bool share_friction(struct entry *entry, bool single)
     return load->mu_s.expr && load->mu_k.expr;
 }
 
+/* The moment of a journal bearing is at most that of its reaction on the friction circle, of radius mu r. */
+static bool journal_finish(struct entry *entry)
+{
+    static const char *const others[] = {"static", "kinetic", "coefficient", "surface_speed"};
+    struct load *load = &entry->keys.load;
+    char behind[40];
+    bool fine = entry_has(entry, "radius");
+    if (!fine)
+        entry_note(entry, "missing-key", entry->chosen.at, "add for example `radius: 10 mm`",
+                   "`bearing` needs the `radius` of the journal");
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        fine &= entry_exclude(entry, "bearing", others[i],
+                              "`bearing` is its only coefficient, and the journal does not turn by itself");
+    if (!fine || !entry->keys.bearing.expr) return false;
+    format_into(behind, sizeof behind, "*%.17g[m]", entry->keys.radius);
+    load->journal = true;
+    if (!derive_value(entry, "bearing", &entry->keys.bearing, a_number, behind, a_length, &load->mu_k))
+        return false;
+    load->mu_s = load->mu_k;
+    return true;
+}
+
 bool friction_finish(struct entry *entry)
 {
     struct load *load = &entry->keys.load;
+    if (entry_has(entry, "bearing")) return journal_finish(entry);
+    if (entry_has(entry, "radius")) {
+        entry_note(entry, "missing-key", entry->chosen.at, "add for example `bearing: 0.1`",
+                   "`radius` needs the coefficient `bearing` of the journal");
+        return false;
+    }
     const char *hint = "`coefficient` means both";
     bool single = entry_has(entry, "coefficient") || entry->keys.coefficient.expr;
     bool fine = entry_exclude(entry, "coefficient", "static", hint) &&

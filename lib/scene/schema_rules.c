@@ -18,7 +18,7 @@ static const struct {
     {"force_drag", "linear quadratic"},
     {"force_thrust", "exhaust velocity"},
     {"force_friction", "coefficient static kinetic"},
-    {"moment_friction", "coefficient static kinetic"},
+    {"moment_friction", "coefficient static kinetic bearing+radius"},
     {"coupling_actuator", "moment force"},
     {"rod", "length from+to"},
     {"sphere", "radius"},
@@ -74,7 +74,8 @@ static const struct {
     {"coupling_actuator", "moment+force moment+along"},
     {"force_thrust", "exhaust+velocity velocity+angle velocity+frame"},
     {"force_friction", "coefficient+static coefficient+kinetic"},
-    {"moment_friction", "coefficient+static coefficient+kinetic"},
+    {"moment_friction", "coefficient+static coefficient+kinetic bearing+static bearing+kinetic "
+                        "bearing+coefficient bearing+surface_speed"},
     {"force_spring", "free_length+neutral to+neutral"},
 };
 
