@@ -147,6 +147,17 @@ verify: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	$(or $(wildcard /usr/bin/python3),python3) tests/verify/verify.py $(BUILD)
 
+# Data of thirty systems to 12 digits, and of a grid of inclined planes, for other engines (docs/reference-systems.md).
+reference: all
+	tests/reference/reference.py $(BUILD) $(BUILD)/reference
+
+# Engines of Debian beside these data: writes the table of docs/reference-systems.md.
+engines: all
+	.ci/install-packages run engines
+	[ -f $(BUILD)-engines/build.ninja ] || meson setup $(BUILD)-engines tests/reference/engines
+	ninja -C $(BUILD)-engines
+	tests/reference/engines.py $(BUILD) $(BUILD)-engines
+
 # The table of error bars of random scenes that are rich in events (docs/error-bars.md); takes some minutes.
 event-bars: $(BUILD)/.tests
 	ninja -C $(BUILD) tests/bench/validate_event_bars
@@ -313,5 +324,5 @@ $(BUILD)-count/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run satellites mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects instructions error-bars event-bars events late-times implicit tighter methods impacts failures gallery python live live-check lsp-check site check-format format lint install uninstall dist dist-check recipes recipes-check pages deb deb-check clean
+.PHONY: all run reference engines satellites mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects instructions error-bars event-bars events late-times implicit tighter methods impacts failures gallery python live live-check lsp-check site check-format format lint install uninstall dist dist-check recipes recipes-check pages deb deb-check clean
 .SECONDARY:
