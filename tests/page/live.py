@@ -173,7 +173,7 @@ CENTER = """canvas.scrollIntoView({ block: 'center' }); fbd.seek(run.start); con
 def check_pull(browser, folder):
     path = live_page(folder, PENDULUM)
     open_live(browser, path)
-    with claim("at the start a pendulum is drawn to another angle, by mouse and by finger"):
+    with claim("at the start a pendulum is dragged to another angle, by mouse and by finger"):
         for pointer, turn in (("mouse", 0.5), ("touch", -0.8)):
             x, y = browser.run(CENTER)
             theta, pin = browser.run("return [fbd.value('pendulum.theta', 0), (() => { const r = canvas.getBoundingClientRect(), f = frameAt(run.bodies[0], 0, 0), "
@@ -188,7 +188,7 @@ def check_pull(browser, folder):
         close(browser.run("return fbd.value('pendulum.theta', 0)"), math.radians(written), 1e-12)
     path = live_page(folder, INCLINE)
     open_live(browser, path)
-    with claim("a block is drawn along its slide only, and a drag beside it moves the view"):
+    with claim("a block is dragged along its slide only, and a drag beside it moves the view"):
         x, y = browser.run(CENTER)
         scale, pan = browser.run("return [view.scale, view.pan]")
         before = browser.run("return bench.shown")

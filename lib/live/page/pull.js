@@ -1,11 +1,11 @@
 "use strict";
 
-// At the start of the run a body can be drawn to another place: its initial coordinates change as by their sliders, and
-// the model is run again. At other times a drag moves the view.
+// At the start of the run a body can be dragged to another position: its initial coordinates change as by their sliders,
+// and the model is run again. At other times a drag moves the view.
 
 const pull = { body: null, from: null, far: false };
 
-// The sliders of the coordinates of a body that its file gives; null if there are none to move.
+// The keys of the sliders of a body's initial coordinates; null if one of them has none, or a fixed one.
 function startKnobs(body) {
   const own = body.coordinates.map((c) => `initial.${run.columns[c].n}`);
   const free = ["slide", "pivot", "particle", "planar"].includes(body.motion) && own.every((key) => knobs.has(key) && !knobs.get(key).slider.disabled);
@@ -23,7 +23,7 @@ function outlinesOf(body, frame) {
   });
 }
 
-// The body at a point of the canvas, within 8 pixels, that can be drawn to another place; the topmost first.
+// The body at a point of the canvas, within 8 pixels, that can be dragged; the topmost first.
 function bodyAt([x, y]) {
   if (!bench.controls || player.playing || now() !== run.start) return null;
   const row = rowAt(run.start);
