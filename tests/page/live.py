@@ -165,6 +165,51 @@ def check_sliders(browser, folder):
         is_quiet(browser, path)
 
 
+# The centre of mass of the first body at the start, in the window.
+CENTER = """canvas.scrollIntoView({ block: 'center' }); fbd.seek(run.start); const r = canvas.getBoundingClientRect(), body = run.bodies[0];
+    const [x, y] = toScreen(place(frameAt(body, run.start, 0), ...body.G)); return [r.left + canvas.clientLeft + x, r.top + canvas.clientTop + y];"""
+
+
+def check_pull(browser, folder):
+    path = live_page(folder, PENDULUM)
+    open_live(browser, path)
+    with claim("at the start a pendulum is dragged to another angle, by mouse and by finger"):
+        for pointer, turn in (("mouse", 0.5), ("touch", -0.8)):
+            x, y = browser.run(CENTER)
+            theta, pin = browser.run("return [fbd.value('pendulum.theta', 0), (() => { const r = canvas.getBoundingClientRect(), f = frameAt(run.bodies[0], 0, 0), "
+                                     "[x, y] = toScreen([f.x, f.y]); return [r.left + canvas.clientLeft + x, r.top + canvas.clientTop + y]; })()]")
+            arm, angle = math.hypot(x - pin[0], pin[1] - y), math.atan2(pin[1] - y, x - pin[0])
+            places = [(pin[0] + arm * math.cos(angle + turn * k / 4), pin[1] - arm * math.sin(angle + turn * k / 4)) for k in range(5)]
+            before = browser.run("return bench.shown")
+            browser.drag(places, pointer)
+            wait_for(browser, f"bench.shown > {before} && !bench.runner.busy && !bench.runner.waiting")
+            close(browser.run("return fbd.value('pendulum.theta', 0)"), theta + turn, 1.5 / arm + 0.01)  # whole pixels, steps of the slider
+        written = float(browser.run("return /theta: (.*?) deg/.exec(editor.value)[1]"))
+        close(browser.run("return fbd.value('pendulum.theta', 0)"), math.radians(written), 1e-12)
+    path = live_page(folder, INCLINE)
+    open_live(browser, path)
+    with claim("a block is dragged along its slide only, and a drag beside it moves the view"):
+        x, y = browser.run(CENTER)
+        scale, pan = browser.run("return [view.scale, view.pan]")
+        before = browser.run("return bench.shown")
+        browser.drag([(x, y), (x + 20, y), (x + 40, y)])
+        wait_for(browser, f"bench.shown > {before} && !bench.runner.busy && !bench.runner.waiting")
+        close(browser.run("return fbd.value('block.x', 0)"), 40 * math.cos(math.radians(30)) / scale, 0.01)
+        assert browser.run("return view.pan") == pan
+        box = browser.run("const r = canvas.getBoundingClientRect(); return [r.left, r.top]")
+        browser.drag([(box[0] + 60, box[1] + 40), (box[0] + 80, box[1] + 60)])
+        assert browser.run("return view.pan") == [pan[0] + 20, pan[1] + 20]
+    with claim("at a later time a drag on a body moves the view as well"):
+        browser.run("document.getElementById('zoom-all').click();")
+        x, y = browser.run(CENTER)
+        browser.run("fbd.seek(0.001);")
+        text = browser.run("return editor.value")
+        browser.drag([(x, y), (x + 30, y)])
+        assert browser.run("return [view.pan[0], editor.value]") == [30, text]
+    with claim("the page is quiet and asks for nothing"):
+        is_quiet(browser, path)
+
+
 def check_editor(browser, folder):
     path = live_page(folder, PENDULUM)
     open_live(browser, path)
@@ -298,6 +343,7 @@ def main():
         try:
             with Browser(1100, 1000) as browser:
                 check_sliders(browser, folder)
+                check_pull(browser, folder)
                 check_editor(browser, folder)
                 check_effects(browser, folder)
                 check_values(browser, folder)

@@ -63,7 +63,7 @@ function showAgain(data) {
   Object.assign(plotWindow, kept ? { from, to } : { from: run.start, to: run.end });
   Object.assign(element("scrub"), { min: run.start, max: run.end });
   measure();
-  aim();
+  if (pull.body) drawStill(); else aim(); // the view stays while a body is dragged
   if (tablesSay(chosenBodies()) !== said) makeTables(chosenBodies());
   if (chartsAreOthers()) makeCharts(chosenBodies()); else redrawChartsSoon();
   seek(t);
