@@ -232,6 +232,11 @@ pages: $(BUILD)/.tests
 	FBD_ALL_PAGES=1 FBD_TEST_TIMEOUT=10 .ci/test $(BUILD) --no-rebuild page
 
 # The language server in Debian's neovim: diagnostics arrive, and fixes are applied.
+# The same for other systems: one file with GSL and libyaml in it, build-wheel/fbd_mechanics-VERSION-....whl.
+wheel: all
+	.ci/install-packages run python
+	packaging/wheel $(BUILD) $(BUILD)-wheel
+
 lsp-check: python
 	.ci/install-packages editor
 	tests/editor/lsp_check $(BUILD)-python/bin
@@ -324,5 +329,5 @@ $(BUILD)-count/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run reference engines satellites mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects instructions error-bars event-bars events late-times implicit tighter methods impacts failures gallery python live live-check lsp-check site check-format format lint install uninstall dist dist-check recipes recipes-check pages deb deb-check clean
+.PHONY: all run reference engines satellites mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects instructions error-bars event-bars events late-times implicit tighter methods impacts failures gallery python wheel live live-check lsp-check site check-format format lint install uninstall dist dist-check recipes recipes-check pages deb deb-check clean
 .SECONDARY:

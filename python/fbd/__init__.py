@@ -17,12 +17,14 @@ from ._fit import Fit, Fitted
 from ._library import taken as _taken
 from ._library import text_at as _text_at
 from ._grade import Finding, Grade, Key
+from ._linear import Linearization, Transfer
 from ._model import Model, check
 from ._notes import AccuracyNotReached, Error, Fix, Note, RunFailed, Warning
-from ._records import (Arrow, Coordinate, Drift, Energy, Equation, Event, HandCheck, Inertia, Limit, Mode, Progress,
+from ._records import (Arrow, Coordinate, Drift, Energy, Equation, Event, HandCheck, Inertia, Limit, Mode, Parameter, Progress,
                        Stats, Unbalanced)
 from ._run import Run
-from ._state import Equations, Linearization, State, Statics
+from ._section import Cut, Section
+from ._state import Equations, State, Statics
 from ._sweep import SweepTable
 from ._testing import assert_derivation
 
@@ -30,9 +32,9 @@ __version__: str = _text_at(_lib.fbd_version())
 
 # Without `Warning`, which would take the place of Python's own.
 __all__ = [
-    "AccuracyNotReached", "Arrow", "Coordinate", "Cost", "CostPoint", "Drift", "Effect", "Effects", "Energy",
+    "AccuracyNotReached", "Arrow", "Coordinate", "Cost", "CostPoint", "Cut", "Drift", "Effect", "Effects", "Energy",
     "Equation", "Equations", "Error", "Event", "Finding", "Fit", "Fitted", "Fix", "Found", "Gap", "Grade", "HandCheck", "Inertia", "Key", "Limit", "Linearization", "Mode", "Model",
-    "Note", "Progress", "Run", "RunFailed", "Solution", "State", "Statics", "Stats", "SweepTable", "Unbalanced",
+    "Note", "Parameter", "Progress", "Run", "RunFailed", "Section", "Solution", "State", "Statics", "Stats", "SweepTable", "Transfer", "Unbalanced",
     "assert_derivation", "check", "schema",
 ]
 

@@ -4,22 +4,26 @@ from __future__ import annotations
 
 import json
 import os
-from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Tuple, Type, Union
 
 from . import _cost, _find, _fit, _run, _sweep
+from ._files import fmu_library, put
 from ._binding import ffi, lib
 from ._find import Found
 from ._fit import Data, Fit
-from ._library import (bytes_of, made, names_of, notes_of, owned, path_of, run_options, settings_of, taken, text_at,
+from ._library import (bytes_of, checked, made, names_of, notes_of, owned, path_of, run_options, settings_of, taken, text_at,
                        whole)
+from ._linear import Linearization, Names
 from ._notes import Error, Note, complaint
-from ._records import Coordinate, HandCheck, Inertia, Progress, from_struct, picture
+from ._records import Coordinate, HandCheck, Inertia, Parameter, Progress, from_struct, picture
 from ._run import Run
-from ._state import Equations, Linearization, State, Statics, coordinates_of
+from ._section import Section
+from ._state import Equations, State, Statics, coordinates_of
 from ._sweep import SweepTable, Vary
 
 Values = Optional[Mapping[str, Any]]
 Hand = Mapping[str, Sequence[str]]
+Time = Union[float, str, None]
 
 
 def read_notes(source: bytes, name: bytes, parameters: Mapping[str, Any]) -> Tuple[Tuple[Note, ...], Tuple[str, ...]]:
@@ -73,6 +77,15 @@ def _with_hand(source: bytes, name: bytes, parameters: Mapping[str, Any], hand: 
         del kept
     settings, count, kept = settings_of(dict(parameters))
     model = made(lib.fbd_model_parse_document, lib.fbd_model_free, (document, *entries), document, settings, count, True)
+    del kept
+    return model
+
+
+def _restored(kind: "Type[Model]", source: bytes, name: str, parameters: Mapping[str, Any]) -> "Model":
+    settings, count, kept = settings_of(dict(parameters))
+    model = kind.__new__(kind)
+    handle = made(lib.fbd_model_parse, lib.fbd_model_free, (), source, len(source), os.fsencode(name), settings, count)
+    model._begin(handle, os.fsencode(name), parameters)
     del kept
     return model
 
@@ -136,6 +149,24 @@ class Model:
         """The coordinates of the scene, with their rates and units."""
         return coordinates_of(self._model)
 
+    @property
+    def parameters(self) -> Dict[str, Parameter]:
+        """The parameters of the file and then its inputs, by name, with their values in this model."""
+        listed = (lib.fbd_model_parameter(self._model, i) for i in range(lib.fbd_model_parameter_count(self._model)))
+        return {text_at(struct.name): from_struct(Parameter, struct) for struct in listed}
+
+    def __reduce__(self) -> Any:
+        """A copy in another process reads the same text; data files of tables are read again."""
+        return _restored, (type(self), self._source(), self._name, self._parameters)
+
+    def _seconds(self, value: Time, name: str) -> Optional[float]:
+        """A time given as a number [s] or as a text with a unit ("200 ms")."""
+        if not isinstance(value, str):
+            return value
+        seconds = ffi.new("double *")
+        checked(lib.fbd_model_quantity, self._model, name.encode(), bytes_of(value, name), b"s", seconds)
+        return float(seconds[0])
+
     def inertia(self, body: str) -> Inertia:
         """Mass, moments of inertia and centre of mass of a body."""
         struct = lib.fbd_model_inertia(self._model, self.bodies.index(body))
@@ -164,9 +195,21 @@ class Model:
         """
         return self.state(values, **named).fit().equations()
 
-    def linearize(self, values: Values = None, /, **named: Any) -> Linearization:
-        """Linearise about the equilibrium near the start, or near where the values say."""
-        return self.state(values, **named).linearize()
+    def linearize(self, values: Values = None, /, *, inputs: Names = (), outputs: Names = (), **named: Any) -> Linearization:
+        """Linearise about the equilibrium near the start, or near where the values say; ``inputs`` and ``outputs`` as of
+        :meth:`State.linearize`.
+
+        >>> model.linearize(outputs=["cart.x", "rod.tip.x"]).transfer("F", "rod.tip.x").zeros
+        """
+        return self.state(values, **named).linearize(inputs=inputs, outputs=outputs)
+
+    def section(self, body: str, values: Values = None, /, *, at_rest: bool = False, **named: Any) -> Section:
+        """Section forces along a straight body, in motion at the start or where the values say, or ``at_rest``.
+
+        >>> model.section("beam", at_rest=True).extremes["M"]
+        """
+        state = self.state(values, **named)
+        return (state if at_rest else state.fit()).section(body, at_rest=at_rest)
 
     def statics(self, values: Values = None, /, *, settle: bool = False, **named: Any) -> Statics:
         """The scene at rest at the start or where the values say, with every reaction. With ``settle`` it is
@@ -185,13 +228,13 @@ class Model:
 
     # ---- runs
 
-    def run(self, *, until: Optional[float] = None, tolerance: Optional[float] = None, step: Optional[float] = None,
+    def run(self, *, until: Time = None, tolerance: Optional[float] = None, step: Time = None,
             method: Optional[str] = None, accuracy: Optional[float] = None, error_bars: bool = False,
-            structure: bool = True, every: Optional[float] = None, ledger: bool = False, components: bool = False,
+            structure: bool = True, every: Time = None, ledger: bool = False, components: bool = False,
             progress: Optional[Callable[[Progress], Any]] = None) -> Run:
         """Run the model from t = 0 to its end.
 
-        until: end time [s]; tolerance: relative error of a step; step: a fixed step [s]; method: "auto",
+        until: end time, in seconds or a text with a unit ("200 ms"), as step and every; tolerance: relative error of a step; step: a fixed step [s]; method: "auto",
         "rk8pd", ...; accuracy: the global accuracy to be delivered, whatever tolerance that takes; error_bars:
         estimate the global errors; structure: False integrates all bodies together; every: interval of the rows
         [s]; ledger: columns of each force, its work and the energies; components: with the components of each
@@ -203,10 +246,10 @@ class Model:
         A run that fails is raised as :class:`fbd.RunFailed`, one that does not reach its accuracy as
         :class:`fbd.AccuracyNotReached`, both with the run; one that a lost contact ends is returned, with a warning.
         """
-        run = _run.start(self._model, self.title, progress, every, ledger, components, until=until,
-                         tolerance=tolerance, step=step, method=method, accuracy=accuracy, error_bars=error_bars, structure=structure)
-        run._parameters = self._parameters
-        return run
+        options: Dict[str, Any] = {"until": self._seconds(until, "until"), "tolerance": tolerance,
+                                   "step": self._seconds(step, "step"), "method": method, "accuracy": accuracy,
+                                   "error_bars": error_bars, "structure": structure}
+        return _run.start(self, progress, self._seconds(every, "every"), ledger, components, options)
 
     def note(self, path: Union[str, "os.PathLike[str]"], *, date: Optional[str] = None, **options: Any) -> Run:
         """Run the model with error bars, and write its calculation note (:meth:`Run.note`). Options of :meth:`run`.
@@ -218,8 +261,8 @@ class Model:
         return run
 
     def sweep(self, vary: Vary, outputs: Union[str, Sequence[str]] = (), *, zip: bool = False, seed: int = 1,
-              jobs: int = 0, until: Optional[float] = None, tolerance: Optional[float] = None,
-              step: Optional[float] = None, method: Optional[str] = None, structure: bool = True, find: Optional[str] = None,
+              jobs: int = 0, until: Time = None, tolerance: Optional[float] = None,
+              step: Time = None, method: Optional[str] = None, structure: bool = True, find: Optional[str] = None,
               statics: bool = False, runs: int = 0, progress: Optional[Callable[[int, int], Any]] = None) -> SweepTable:
         """Run the model under many values of its parameters; a structured array with a row for each run.
 
@@ -229,15 +272,15 @@ class Model:
         processors; the rows do not depend on it. find: instead of outputs a question of :meth:`find`, with its statics
         and runs, for each row. ``progress`` is called with the rows that are done, and all.
         """
-        options: Dict[str, Any] = {"until": until, "tolerance": tolerance, "step": step, "method": method,
-                                   "structure": structure}
+        options: Dict[str, Any] = {"until": self._seconds(until, "until"), "tolerance": tolerance,
+                                   "step": self._seconds(step, "step"), "method": method, "structure": structure}
         plan, kept = _sweep._plan(vary, outputs, zip, seed, self._parameters, options, find, statics, runs)
         table = _sweep.sweep(self._source(), self._name, plan, whole(jobs, "jobs", 10000), progress)
         del kept
         return table
 
-    def find(self, question: str, *, statics: bool = False, runs: int = 0, until: Optional[float] = None,
-             tolerance: Optional[float] = None, step: Optional[float] = None, method: Optional[str] = None,
+    def find(self, question: str, *, statics: bool = False, runs: int = 0, until: Time = None,
+             tolerance: Optional[float] = None, step: Time = None, method: Optional[str] = None,
              structure: bool = True, progress: Optional[Callable[[Progress], Any]] = None) -> Found:
         """The values of a parameter at which something changes or has a given result.
 
@@ -247,8 +290,8 @@ class Model:
         at rest at its start. runs: of the first scan, 0 for 33. ``progress`` is called after runs, up to twenty
         times a second; what is true ends the search with :class:`fbd.Error`. No solution is an empty result.
         """
-        options: Dict[str, Any] = {"until": until, "tolerance": tolerance, "step": step, "method": method,
-                                   "structure": structure}
+        options: Dict[str, Any] = {"until": self._seconds(until, "until"), "tolerance": tolerance,
+                                   "step": self._seconds(step, "step"), "method": method, "structure": structure}
         return _find.find(self._source(), self._name, question, self._parameters, statics, runs, progress, options)
 
     def fit(self, data: Data, parameters: Union[str, Sequence[str]] = (), *, tolerance: Optional[float] = None,
@@ -266,18 +309,44 @@ class Model:
         options: Dict[str, Any] = {"tolerance": tolerance, "step": step, "method": method, "structure": structure}
         return _fit.fit(self._source(), self._name, data, parameters, self._parameters, progress, options)
 
+    # ---- for other programs
+
+    def emit_c(self, *, until: Time = None, tolerance: Optional[float] = None) -> str:
+        """The scene as one C program for GSL, as text (docs/emit-c.md)."""
+        options, name = run_options(until=self._seconds(until, "until"), tolerance=tolerance)
+        text = taken(checked(lib.fbd_emit_c, self._model, options))
+        del name
+        return text
+
+    def fmu(self, path: Union[str, "os.PathLike[str]"], *, version: int = 3, until: Time = None,
+            tolerance: Optional[float] = None, step: Time = None, method: Optional[str] = None, structure: bool = True) -> None:
+        """Write the model as a Functional Mock-up Unit (docs/fmi.md), of FMI 3.0 or 2.0. :class:`fbd.Error` with the id
+        `no-fmu` where the module was built without the binary for it."""
+        library = fmu_library()
+        settings, count, kept = settings_of(self._parameters)
+        options, name = run_options(until=self._seconds(until, "until"), tolerance=tolerance,
+                                    step=self._seconds(step, "step"), method=method, structure=structure)
+        data, length = ffi.from_buffer(library), ffi.new("size_t *")
+        stem = ffi.new("char[]", os.fsencode(os.path.splitext(os.path.basename(self._name))[0]))
+        chosen = ffi.new("fbd_fmu_options *", {"version": whole(version, "the version", 3), "library": data, "name": stem,
+                                               "library_length": len(library), "settings": settings,
+                                               "setting_count": count, "run": options})
+        archive = owned(checked(lib.fbd_fmu, self._model, chosen, length), lib.fbd_free)
+        put(path, bytes(ffi.buffer(archive, length[0])))
+        del kept, name
+
     # ---- what it costs
 
-    def cost(self, *, until: Optional[float] = None, budget: float = 6, methods: Sequence[str] = (),
+    def cost(self, *, until: Time = None, budget: float = 6, methods: Sequence[str] = (),
              quantities: Sequence[str] = (), fixed_steps: bool = False) -> _cost.Cost:
         """What accuracy costs: every method at every tolerance of a ladder, true error against time. ``budget``:
         how long all may take [s]."""
-        return _cost.cost(self._model, until=until, budget=budget, methods=methods, quantities=quantities,
+        return _cost.cost(self._model, until=self._seconds(until, "until"), budget=budget, methods=methods, quantities=quantities,
                           fixed_steps=fixed_steps)
 
-    def effects(self, *, until: Optional[float] = None, budget: float = 6) -> _cost.Effects:
+    def effects(self, *, until: Time = None, budget: float = 6) -> _cost.Effects:
         """What each effect changes and costs: each is left out in turn."""
-        return _cost.effects(self._model, until=until, budget=budget, methods=(), quantities=(), fixed_steps=False)
+        return _cost.effects(self._model, until=self._seconds(until, "until"), budget=budget, methods=(), quantities=(), fixed_steps=False)
 
     def __repr__(self) -> str:
         title = f" `{self.title}`" if self.title else ""

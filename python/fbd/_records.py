@@ -50,6 +50,20 @@ class Coordinate:
 
 
 @dataclass(frozen=True)
+class Parameter:
+    """A parameter or an input of the file with its value in the model."""
+
+    name: str
+    unit: str  #: "" for a pure number, or one whose dimension follows from its use
+    description: str
+    value: float  #: in that unit
+    input: bool  #: of ``inputs``: it may change during a motion
+    derived: bool  #: defined by other parameters or gravity
+    low: float  #: of its range; nan where the file does not give it
+    high: float
+
+
+@dataclass(frozen=True)
 class Equation:
     """One assembled equation: inertia * acceleration = sum of terms."""
 

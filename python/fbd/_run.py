@@ -7,6 +7,7 @@ import html
 import math
 import os
 import threading
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Tuple, Union, overload
 
@@ -14,8 +15,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ._binding import ffi, lib
+from ._files import put
 from ._library import bytes_of, checked, made, number, owned, positive, run_options, settings_of, taken, text_at, view
-from ._notes import AccuracyNotReached, Error, RunFailed, complaint, warn
+from ._notes import AccuracyNotReached, Error, RunFailed, Warning, complaint, warn
 from ._records import Drift, Energy, Event, Progress, Stats, from_struct, preformatted
 from ._state import State
 from ._watch import Watch
@@ -43,17 +45,6 @@ def _record(simulation: Any, watch: Watch, every: float, **recording: bool) -> A
     if held == ffi.NULL:
         raise MemoryError("fbd: out of memory")
     return held
-
-
-def _put(path: Path, text: str) -> None:
-    """Write a file whole, or not at all."""
-    beside = path.with_name(f"{path.name}.{os.getpid()}.tmp")
-    try:
-        beside.write_text(text, encoding="utf-8")
-        os.replace(beside, path)
-    except BaseException:
-        beside.unlink(missing_ok=True)
-        raise
 
 
 class Run(Mapping[str, Column]):
@@ -86,7 +77,7 @@ class Run(Mapping[str, Column]):
         self._places = {name: i for i, name in enumerate(self.columns)}
         self._events: Optional[Tuple[Event, ...]] = None
         self._replay: Any = None
-        self._parameters: Mapping[str, Any] = {}  # set by the caller of the model
+        self._made_by: Any = None  # the model, and the options of its run
 
     def _judge(self) -> None:
         """What fbd-run ends with another exit code for is raised, or warned of."""
@@ -294,10 +285,26 @@ class Run(Mapping[str, Column]):
         simulation, watch = self._again(self._bars), Watch()
         return simulation, _record(simulation, watch, self._every, keep=True)
 
-    def html(self) -> str:
-        """One self-contained page that plays the run, at most some 5 MB. It makes the run once more."""
+    def html(self, *, live: bool = False) -> str:
+        """One self-contained page that plays the run, at most some 5 MB. It makes the run once more. With ``live`` it
+        has sliders and an editor, and repeats the run after each change (docs/live.md)."""
         _, result = self._kept()
-        return taken(checked(lib.fbd_result_html, result))
+        if not live:
+            return taken(checked(lib.fbd_result_html, result))
+        model, made_with = self._made_by
+        settings, count, kept = settings_of(dict(model._parameters))
+        options, name = run_options(**made_with["options"])
+        chosen = ffi.new("fbd_live_options *", {"settings": settings, "setting_count": count, "run": options})
+        page = taken(checked(lib.fbd_result_live_html, result, chosen))
+        del kept, name
+        return page
+
+    def __reduce__(self) -> Any:
+        """A copy in another process makes the run once more, with the same rows. One that ``progress`` has ended does
+        not end there again."""
+        if self._made_by is None or self._outcome == "interrupted":
+            raise TypeError("a run that was interrupted cannot be pickled: it does not end there again")
+        return _made_again, self._made_by
 
     def gnuplot(self, file: Optional[str] = None, columns: Optional[str] = None) -> str:
         """A script for gnuplot with its data, as ``fbd-run --gnuplot``. It makes the run once more."""
@@ -315,15 +322,15 @@ class Run(Mapping[str, Column]):
         formats = {".html": lib.FBD_NOTE_HTML, ".md": lib.FBD_NOTE_MARKDOWN}
         if target.suffix.lower() not in formats:
             raise ValueError(f"a note ends in .html or .md, not `{target.name}`; fbd-run --note also makes .tex and .pdf")
-        settings, count, kept = settings_of(dict(self._parameters))
+        settings, count, kept = settings_of(dict(self._made_by[0]._parameters))
         day = ffi.NULL if date is None else ffi.new("char[]", bytes_of(date, "the date"))
         chosen = ffi.new("fbd_note_options *", {"settings": settings, "setting_count": count, "date": day})
         with self._lock:
             note = made(lib.fbd_note_new, lib.fbd_note_free, (), self._simulation, self._result, chosen)
         text = taken(lib.fbd_note_write(note, formats[target.suffix.lower()], bytes_of(target.stem, "the name")))
         for i in range(0 if target.suffix.lower() == ".html" else lib.fbd_note_drawing_count(note)):
-            _put(target.with_name(f"{target.stem}-{i + 1}.svg"), text_at(lib.fbd_note_drawing(note, i)))
-        _put(target, text)
+            put(target.with_name(f"{target.stem}-{i + 1}.svg"), text_at(lib.fbd_note_drawing(note, i)))
+        put(target, text)
         del kept
 
     def __repr__(self) -> str:
@@ -341,12 +348,20 @@ class Run(Mapping[str, Column]):
                 'style="width: 100%; height: 720px; border: 0"></iframe>')
 
 
-def start(model: Any, title: str, progress: Optional[Callable[[Progress], Any]], every: Optional[float],
-          ledger: bool, components: bool, **options: Any) -> Run:
-    """Make a run of a C model, and judge it."""
+def _made_again(model: Any, made_with: Dict[str, Any]) -> Run:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", Warning)
+        return start(model, None, **made_with)
+
+
+def start(model: Any, progress: Optional[Callable[[Progress], Any]], every: Optional[float], ledger: bool,
+          components: bool, options: Dict[str, Any]) -> Run:
+    """Make a run of a model, and judge it."""
     chosen, name = run_options(**options)
     interval = 0.0 if every is None else positive(every, "every")
-    run = Run(model, chosen, interval, Watch(progress), title, ledger=bool(ledger), components=bool(components))
+    run = Run(model._model, chosen, interval, Watch(progress), model.title, ledger=bool(ledger),
+              components=bool(components))
+    run._made_by = model, {"every": every, "ledger": ledger, "components": components, "options": options}
     del name
     run._judge()
     return run

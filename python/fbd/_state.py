@@ -5,11 +5,11 @@ from __future__ import annotations
 import threading
 from typing import Any, Dict, Iterator, Mapping, Optional, Tuple
 
-import numpy as np
-
 from ._binding import ffi, lib
-from ._library import bytes_of, checked, made, number, owned, taken, text_at, view
-from ._records import (Arrow, Coordinate, Equation, Limit, Mode, Unbalanced, from_struct, picture, preformatted)
+from ._library import bytes_of, checked, made, number, owned, taken, text_at
+from ._linear import Linearization, Names
+from ._records import Arrow, Coordinate, Equation, Limit, Unbalanced, from_struct, picture, preformatted
+from ._section import Section
 
 
 def coordinates_of(model: Any) -> Tuple[Coordinate, ...]:
@@ -80,48 +80,6 @@ class Equations(Mapping[str, Equation]):
 
     def json(self) -> str:
         """The equations and diagrams as one JSON object, as text."""
-        return self._json
-
-    def __str__(self) -> str:
-        return self._text
-
-    __repr__ = __str__
-
-    def _repr_html_(self) -> str:
-        return picture(self._svg) + preformatted(self._text)
-
-
-class Linearization:
-    """x' = A x about an equilibrium, x the deviations of the independent coordinates and then of their rates."""
-
-    A: "np.ndarray[Any, np.dtype[np.float64]]"  #: size x size; rows of rates in 1/s^2, of accelerations 1/s^2 or 1/s
-    coordinates: Tuple[str, ...]  #: the independent ones, "pendulum.theta"
-    states: Tuple[str, ...]  #: what x stands for: coordinates, then rates, then states of the file's own
-    modes: Tuple[Mode, ...]  #: eigenvalues of A
-    equilibrium: Dict[str, float]  #: all coordinates and states there, in their units
-
-    def __init__(self, state: "State"):
-        handle = made(lib.fbd_linearize, lib.fbd_linearization_free, (state._handle,), state._handle)
-        size = lib.fbd_linearization_size(handle)
-        every, own = coordinates_of(state._model), states_of(state._model)
-        count = (size - len(own)) // 2
-        free = [every[lib.fbd_linearization_coordinate(handle, i)] for i in range(count)]
-        self.A = view(lib.fbd_linearization_matrix(handle), (size, size), handle)
-        self.coordinates = tuple(c.name for c in free)
-        self.states = self.coordinates + tuple(c.rate_name for c in free) + tuple(own)
-        self.modes = tuple(from_struct(Mode, lib.fbd_linearization_mode(handle, i)) for i in range(size))
-        self.equilibrium = {name: state._get(name) for name in (*(c.name for c in every), *own)}
-        self._text = taken(lib.fbd_linearization_text(handle))
-        self._svg = taken(lib.fbd_linearization_svg(handle))
-        self._json = taken(lib.fbd_linearization_json(handle))
-
-    @property
-    def svg(self) -> str:
-        """The eigenvalues in the complex plane as an SVG document."""
-        return self._svg
-
-    def json(self) -> str:
-        """One JSON object as text."""
         return self._json
 
     def __str__(self) -> str:
@@ -268,10 +226,16 @@ class State(Mapping[str, float]):
         with self._lock:
             return Equations(self, components)
 
-    def linearize(self) -> Linearization:
-        """Linearise about the equilibrium near it; the state is moved there."""
+    def linearize(self, *, inputs: Names = (), outputs: Names = ()) -> Linearization:
+        """Linearise about the equilibrium near it; the state is moved there. ``inputs`` of the file (default: all) and
+        ``outputs`` (default: coordinates and states), as "cart.v_dot" or "rod.tip.x", are those of B, C and D."""
         with self._lock:
-            return Linearization(self)
+            return Linearization(self, inputs, outputs)
+
+    def section(self, body: str, *, at_rest: bool = False) -> Section:
+        """Normal force, shear force and bending moment along a straight body, in motion here or ``at_rest``."""
+        with self._lock:
+            return Section(self, body, at_rest)
 
     def statics(self) -> Statics:
         """The reactions that hold every body at rest here; rates count as zero."""
@@ -292,14 +256,15 @@ class State(Mapping[str, float]):
             return tuple(text_at(names[i]) for i in range(count))
 
     def svg(self, body: Optional[str] = None, components: bool = False, *, supports: bool = False, symbols: bool = False,
-            worksheet: bool = False, solution: bool = False, scale: float = 0) -> str:
+            worksheet: bool = False, solution: bool = False, scale: float = 0, system: bool = False) -> str:
         """The free-body diagrams as an SVG document, of one body or of all; with the components of each force, with what the
-        bodies are cut free from, with symbols instead of values, as a worksheet or its solution; 10 mm stand for `scale`."""
+        bodies are cut free from, with symbols instead of values, as a worksheet or its solution; 10 mm stand for `scale`. With
+        `system` the bodies joined, with supports, springs, ropes and applied forces."""
         name = ffi.NULL if body is None else ffi.new("char[]", bytes_of(body, "the body"))
         with self._lock:
             drawing = ffi.new("fbd_drawing *", {
                 "body": name, "components": bool(components), "supports": bool(supports), "symbols": bool(symbols),
-                "worksheet": bool(worksheet), "solution": bool(solution), "scale": float(scale)})
+                "worksheet": bool(worksheet), "solution": bool(solution), "scale": float(scale), "system": bool(system)})
             return taken(checked(lib.fbd_diagram_svg, self._handle, drawing))
 
     def __repr__(self) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import html
 import io
 import re
 from typing import TYPE_CHECKING, Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
@@ -12,6 +13,7 @@ import numpy as np
 from ._binding import ffi, lib
 from ._library import bytes_of, made, names_of, quantity, run_options, settings_of, text_at, whole
 from ._notes import complaint, warn
+from ._records import preformatted
 from ._watch import in_background
 
 if TYPE_CHECKING:
@@ -29,6 +31,29 @@ class SweepTable(np.ndarray):  # type: ignore[type-arg]
     def __array_finalize__(self, source: Any) -> None:
         self.units = getattr(source, "units", {})
 
+    def __reduce__(self) -> Any:
+        made_by: Any = super().__reduce__()
+        return made_by[0], made_by[1], (made_by[2], self.units)
+
+    def __setstate__(self, state: Any) -> None:
+        array, self.units = state
+        super().__setstate__(array)
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks; of many rows the first and the last ones."""
+        names = list(self.dtype.names or ())
+        if self.ndim != 1 or not names:
+            return preformatted(repr(self))
+        most = 60
+        rows = list(range(len(self)))
+        shown = rows if len(rows) <= most else rows[: most // 2] + [-1] + rows[-most // 2:]
+        heads = (html.escape(f"{n} [{self.units[n]}]" if n in self.units else n) for n in names)
+        lines = ["<tr>" + "".join(f"<th>{head}</th>" for head in heads) + "</tr>"]
+        for row in shown:
+            cells = ("&#8942;" if row < 0 else html.escape(_shown(self[n][row])) for n in names)
+            lines.append("<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")
+        return "<table>\n" + "\n".join(lines) + f"\n</table>\n<p>{len(self)} runs</p>"
+
     def to_pandas(self) -> "pandas.DataFrame":
         """The rows as a DataFrame over ``run``; units are in its ``attrs["units"]``. It is a copy."""
         import pandas
@@ -37,6 +62,13 @@ class SweepTable(np.ndarray):  # type: ignore[type-arg]
         frame = frame.set_index("run")
         frame.attrs["units"] = dict(self.units)
         return frame
+
+
+def _shown(value: Any) -> str:
+    """A cell: numbers with six digits, nothing for nan."""
+    if isinstance(value, np.floating):
+        return "" if np.isnan(value) else f"{value:.6g}"
+    return str(value)
 
 
 def _values(name: str, values: Any) -> str:
