@@ -26,21 +26,28 @@ static const struct joint_type *joint_of(const struct reader *reader, int body)
 
 /* ---- the coordinate that a key names */
 
-static bool no_coordinate(struct reader *reader, const struct factor *factor, const char *name)
+/* A hint for a name that is no coordinate of the body. */
+static const char *hint_for(struct reader *reader, const struct factor *factor, const char *name)
 {
     const struct joint_type *joint = joint_of(reader, factor->body);
-    const char *body = reader->scene->bodies[factor->body].name, *names[most_coordinates_of_a_body];
+    const char *body = reader->scene->bodies[factor->body].name, *key = factor->pair->key,
+               *names[most_coordinates_of_a_body];
+    if (joint->count == 0) return "name the coordinates of bodies that move on their parent";
     for (int i = 0; i < joint->count; i++) {
         names[i] = arena_printf(reader->arena, "%s.%s", body, joint->coordinates[i].name);
-        if (strcmp(name, joint->coordinates[i].rate) == 0) name = joint->coordinates[i].name;
+        if (!names[i]) return NULL;
+        if (strcmp(name, joint->coordinates[i].rate) == 0)
+            return diag_replace(reader->errors, key, names[i], "name the coordinate, `%s`, not its rate",
+                                names[i]);
     }
-    const char *given = arena_printf(reader->arena, "%s.%s", body, name);
-    if (!given) return false;
-    diag_add(reader->errors, FBD_ERROR, "unknown-name", factor->pair->at,
-             joint->count == 0 ? "name the coordinates of bodies that move on their parent"
-                               : diag_nearest(reader->errors, given, names, (size_t)joint->count),
-             "`ratio`: the body `%s` has no coordinate called `%s`", body,
-             strchr(factor->pair->key, '.') + 1);
+    return diag_nearest(reader->errors, key, names, (size_t)joint->count);
+}
+
+static bool no_coordinate(struct reader *reader, const struct factor *factor, const char *name)
+{
+    diag_add(reader->errors, FBD_ERROR, "unknown-name", factor->pair->at, hint_for(reader, factor, name),
+             "`ratio`: the body `%s` has no coordinate called `%s`", reader->scene->bodies[factor->body].name,
+             name);
     return false;
 }
 

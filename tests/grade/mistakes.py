@@ -198,7 +198,8 @@ def a_line_twice_as_large(sheet):
 
 
 def wrong_line(sheet, change):
-    lines = [(body, i) for body in sheet.bodies for i, _ in enumerate(as_list(body.node.get("hand")))]
+    lines = [(body, i) for body in sheet.bodies for i, line in enumerate(as_list(body.node.get("hand")))
+             if isinstance(line, str) or "equation" in line]
     if not lines:
         return None
     body, i = sheet.rng.choice(lines)
