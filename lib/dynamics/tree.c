@@ -167,7 +167,6 @@ void tree_slots(const struct fbd_model *model, const struct instant *at, double 
         int i = tree->watched[k];
         const struct tree_link *link = &tree->links[i];
         const struct tree_state *s = &work->links[i];
-        if (link->journal) journal_aim(tree, work, i, s->F.force);
         if (link->normal_slot >= 0)
             slots[link->normal_slot] = -vec_dot(tree_normal(tree, work, i), s->F.force);
         if (link->pair < 0) continue;
@@ -307,7 +306,7 @@ static void solve_system(const struct fbd_model *model, const struct instant *at
     enum { most_passes = 60 };
     const struct tree *tree = model->tree;
     bool turns = tree->journal_count > 0;
-    if (turns) journals_aim(tree, at);
+    if (turns) journals_aim(tree, at->tree);
     solve_directed(model, at, a);
     for (int pass = 0; turns && (turns = journals_turn(tree, at)) && pass < most_passes; pass++)
         solve_directed(model, at, a);
@@ -374,7 +373,9 @@ static void constrain(const struct fbd_model *model, const struct instant *at, d
         holds = true;
     }
     if (holds) tree_rest(model, at, false, a);
-    if (!work->rates_only) tree_slots(model, at, slots);
+    if (work->rates_only) return;
+    if (tree->journal_count > 0) journals_aim(tree, work);
+    tree_slots(model, at, slots);
 }
 
 void tree_accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a)
