@@ -28,14 +28,15 @@
 #ifndef FBD_DYNAMICS_JOURNALS_H
 #define FBD_DYNAMICS_JOURNALS_H
 
-#include "dynamics/state.h"
 #include "dynamics/tree.h"
+
+struct fbd_state;
 
 /* Direct n of journal i along a reaction; zero for none. Returns the change of n. */
 double journal_aim(const struct tree *tree, struct tree_work *work, int i, struct vec F);
 
-/* Direct those that slip along their reactions without friction, in a complete tree. */
-void journals_aim(const struct tree *tree, const struct instant *at);
+/* Direct all of them along their reactions in a complete tree. */
+void journals_aim(const struct tree *tree, struct tree_work *work);
 
 /* After tree_system_solve: direct them along the resulting reactions. True when that changes the solution. */
 bool journals_turn(const struct tree *tree, const struct instant *at);

@@ -5,6 +5,7 @@
 
 #include "dynamics/constraint.h"
 #include "dynamics/friction.h"
+#include "dynamics/journals.h"
 #include "dynamics/tree_system.h"
 #include "dynamics/world_refs.h"
 
@@ -107,6 +108,8 @@ void rest_forces(const struct fbd_model *model, const struct instant *given, con
     transmit(model, &at, lambda, loads);
     for (int i = 1; i < model->tree->count; i++)
         leave_over(&model->tree->links[i], &at.tree->links[i], slots, Q);
+    if (loads && model->tree->journal_count > 0)
+        journals_aim(model->tree, at.tree); /* they keep it in columns */
     tree_slots(model, &at, slots);
     for (int i = model->tree->joined; i < model->tree->count; i++) tree_alone_slots(model, &at, i, slots);
     for (int i = 0; !loads && i < model->tree->coupling_count; i++)

@@ -184,11 +184,7 @@ void tree_coupling_slots(const struct fbd_model *model, const struct instant *at
 void tree_slots(const struct fbd_model *model, const struct instant *at, double *slots)
 {
     const struct tree *tree = model->tree;
-    for (int k = 0; k < tree->joined_watched; k++) {
-        int i = tree->watched[k];
-        if (tree->links[i].journal) journal_aim(tree, at->tree, i, at->tree->links[i].F.force);
-        tree_link_slots(model, at, i, slots);
-    }
+    for (int k = 0; k < tree->joined_watched; k++) tree_link_slots(model, at, tree->watched[k], slots);
     for (int i = 0; i < tree->coupling_count; i++) tree_coupling_slots(model, at, i, slots);
 }
 
@@ -316,7 +312,7 @@ static void solve_system(const struct fbd_model *model, const struct instant *at
     enum { most_passes = 60 };
     const struct tree *tree = model->tree;
     bool turns = tree->journal_count > 0;
-    if (turns) journals_aim(tree, at);
+    if (turns) journals_aim(tree, at->tree);
     solve_directed(model, at, a);
     for (int pass = 0; turns && (turns = journals_turn(tree, at)) && pass < most_passes; pass++)
         solve_directed(model, at, a);
@@ -383,7 +379,9 @@ static void constrain(const struct fbd_model *model, const struct instant *at, d
         holds = true;
     }
     if (holds) tree_rest(model, at, false, a);
-    if (!work->rates_only) tree_slots(model, at, slots);
+    if (work->rates_only) return;
+    if (tree->journal_count > 0) journals_aim(tree, work);
+    tree_slots(model, at, slots);
 }
 
 void tree_accelerations(const struct fbd_model *model, const struct instant *at, double *slots, double *a)

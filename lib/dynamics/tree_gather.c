@@ -333,7 +333,8 @@ bool gathered_find(struct gathered *all, struct fbd_state *state, const struct d
         all->trial[p] = loose;
     }
     if (!holds_new(&all->problem, count, guides)) return false;
-    if (state->model->tree->journal_count > 0 && !at.sliding) { /* else their directions are those at the start */
+    if (state->model->tree->journal_count > 0 &&
+        !at.sliding) { /* else their directions are those at the start */
         all->reactions = calloc(guides * (count + 1) + 1, sizeof *all->reactions);
         if (!all->reactions) return false;
     }

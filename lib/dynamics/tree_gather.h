@@ -30,10 +30,11 @@ struct gathered {
     struct hold_problem problem;
     int *pair, *hold; /* the mode of a hold; the hold of a mode, or -1 */
     int *guide;       /* of a guide: the mode whose normal force it has */
-    struct vec *reactions; /* or NULL: of guides that are journals, count + 1 each, their reaction without forces
+    struct vec
+        *reactions; /* or NULL: of guides that are journals, count + 1 each, their reaction without forces
                             * of the constraints and those by a unit of each */
-    int *trial;       /* modes with all of them loose */
-    int *still;       /* of a hold: still_..., 0 if it is movable */
+    int *trial;     /* modes with all of them loose */
+    int *still;     /* of a hold: still_..., 0 if it is movable */
     int *forced;
     struct shared_out shares;
 };

@@ -102,14 +102,13 @@ static void plan_normals(struct fbd_model *model)
     struct plan *plan = &model->plan;
     for (size_t b = 0; b < model->body_count; b++) {
         struct model_body *body = &model->bodies[b];
-        bool rubs = false, journal = false;
+        bool rubs = false;
         int normal = -1;
         for (int i = body->first_load; i < body->first_load + body->load_count; i++) {
             if (model->loads[i].source->kind == load_friction) rubs = true;
             if (model->loads[i].source->kind == load_normal) normal = i;
-            journal |= model->loads[i].source->journal;
         }
-        if (journal && body->joint->has_axis) body->normal_slot = plan->slots++;
+        if (body_has_journal(body->source) && body->joint->has_axis) body->normal_slot = plan->slots++;
         if (normal < 0) continue;
         if (model->loads[normal].source->two_sided && !rubs && !normal_is_named(model, (int)b)) continue;
         body->normal_slot = plan->slots++;

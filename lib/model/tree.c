@@ -25,13 +25,6 @@ static bool lacks_inertia(const struct model_body *body)
     return body->inertia.mass == 0 || (angle >= 0 && coordinate_inertia(body, angle) == 0);
 }
 
-static bool has_journal(const struct body *body)
-{
-    for (size_t i = 0; i < body->load_count; i++)
-        if (body->loads[i].journal) return true;
-    return false;
-}
-
 static void mark_jointed(const struct fbd_model *model, bool *jointed)
 {
     const struct scene *scene = model->scene;
@@ -39,7 +32,7 @@ static void mark_jointed(const struct fbd_model *model, bool *jointed)
         const struct motion *motion = &scene->bodies[b].motion;
         const int parent = motion->parent;
         if (motion->prescribed.expr || motion->curve || scene->bodies[b].mass.expr ||
-            lacks_inertia(&model->bodies[b]) || has_journal(&scene->bodies[b]))
+            lacks_inertia(&model->bodies[b]) || body_has_journal(&scene->bodies[b]))
             jointed[b] = true;
         if (parent != ground_body) jointed[b] = jointed[parent] = true;
     }

@@ -7,6 +7,7 @@
 
 #include "base/api_check.h"
 #include "base/diag.h"
+#include "dynamics/friction.h"
 #include "dynamics/nonfinite.h"
 #include "dynamics/project.h"
 #include "fbd_study.h"
@@ -176,6 +177,26 @@ static bool is_known(const struct fbd_statics *statics, fbd_errors *errors)
     return !odd && is_finite(statics->state, errors);
 }
 
+/* Limits of journals grow with their reactions, of which there are many then. */
+static bool knows_journals(const struct fbd_statics *statics, fbd_errors *errors)
+{
+    const struct plan *plan = &statics->model->plan;
+    if (statics->indeterminacy == 0 || statics->model->tree->journal_count == 0) return true;
+    for (size_t i = 0; i < plan->mode_count; i++) {
+        const struct mode *mode = &plan->modes[i];
+        const struct load *load = mode->load < 0 ? NULL : statics->model->loads[mode->load].source;
+        if (!load || !load->journal || friction_is_never(mode)) continue;
+        diag_add(
+            errors, FBD_ERROR, "unsettled", load->at,
+            "leave out redundant constraints, or give the bearing a moment, `coefficient`",
+            "the reactions are statically indeterminate: the friction `%s`, which depends on them, is not "
+            "determined",
+            load->name);
+        return false;
+    }
+    return true;
+}
+
 static void warn(const struct fbd_statics *statics, fbd_errors *errors)
 {
     if (statics->indeterminacy == 0 || !fbd_statics_holds(statics)) return;
@@ -202,7 +223,7 @@ static fbd_statics *statics_new(const fbd_state *state, fbd_errors *errors)
     if (put_to_rest(statics->state, errors)) {
         bool solved = solve(statics) && statics->state->holds.found != holds_no_memory;
         if (!solved) diag_out_of_memory(errors);
-        if (solved && is_known(statics, errors)) {
+        if (solved && is_known(statics, errors) && knows_journals(statics, errors)) {
             warn(statics, errors);
             return statics;
         }

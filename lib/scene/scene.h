@@ -123,6 +123,13 @@ struct body {
     struct value exact[2 * most_coordinates_of_a_body];
 };
 
+static inline bool body_has_journal(const struct body *body)
+{
+    for (size_t i = 0; i < body->load_count; i++)
+        if (body->loads[i].journal) return true;
+    return false;
+}
+
 /* A quantity that an expression may name beside coordinates: position or velocity of a point of a body in the
  * world, orientation, slip speed and others. Number k has slot 1 + scene_size + hand_slots + k. */
 struct absolute {

@@ -442,7 +442,8 @@ static bool check_start(struct checks *checks, const struct chain *chain, const 
         snprintf(name, sizeof name, "rod%d.theta", i);
         check_close(checks, name, trial_acceleration(trial, name), f.alpha[i],
                     1e-10 * (fabs(f.alpha[i]) + 10));
-        check_close(checks, "moment", trial_term(trial, name, "friction"), f.c[i], 1e-10 * (fabs(f.c[i]) + 1));
+        check_close(checks, "moment", trial_term(trial, name, "friction"), f.c[i],
+                    1e-10 * (fabs(f.c[i]) + 1));
     }
     return true;
 }
