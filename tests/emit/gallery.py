@@ -136,7 +136,7 @@ def missing(name, text):
     if new:
         return new[1] or new[2]
     couplings = text.partition("\ncouplings:")[2].partition("\nsimulate:")[0].partition("\ncontacts:")[0]
-    kind = re.search(r"\b(pin|rod|rope|belt|gear|rack|roll|slot):", couplings)
+    kind = re.search(r"\b(pin|rod|rope|belt|gear|rack|ratio|roll|slot):", couplings)
     if kind and "around:" in couplings:
         return "a drum"
     if kind:
