@@ -179,7 +179,8 @@ static void check_friction(const struct fbd_model *model, fbd_errors *errors)
         const struct mode *mode = &model->plan.modes[i];
         const struct load *load = model->loads[mode->load].source;
         rubbing += mode_is_friction(mode);
-        if (load->journal) lacks(errors, load->at, "bearing friction that depends on the reaction", load->name);
+        if (load->journal)
+            lacks(errors, load->at, "bearing friction that depends on the reaction", load->name);
         if (mode->kind == mode_joint && mode->two_sided)
             lacks(errors, load->at, "friction in a guide between bodies that move on each other", load->name);
         if (mode_is_friction(mode) && rubbing == most_pairs + 1)

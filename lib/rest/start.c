@@ -119,8 +119,9 @@ static void journal_words(const struct fbd_model *model, const struct holds_trou
     text_printf(text, "%s the friction `%s` of the bearing of `%s` is not determined: ", when,
                 model->loads[mode->load].source->name, model->bodies[mode->body].name);
     if (holds->answer == 0) {
-        text_add(text, "the reaction of its pin is statically indeterminate. Leave out redundant constraints, "
-                       "or give the bearing a moment, `coefficient`");
+        text_add(text,
+                 "the reaction of its pin is statically indeterminate. Leave out redundant constraints, "
+                 "or give the bearing a moment, `coefficient`");
         return;
     }
     text_add(text, "each newton metre of it changes the limit mu r R by ");
