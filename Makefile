@@ -64,6 +64,13 @@ fuzz: $(BUILD)-fuzz/build.ninja $(BUILD)-count/build.ninja
 	tests/fuzz/run $(BUILD)-fuzz --runs=$$(($(RUNS) / 10))
 endif
 
+# fbd-run for other machines, by cross compilers and qemu: TARGETS of i686 (32 bits), s390x (big endian), musl. Every model of
+# the gallery does there what it does here. Some minutes for each. s390x and musl have not been tried yet.
+TARGETS = i686
+portability: all
+	.ci/install-packages run portability
+	tests/tools/portability $(BUILD) $(BUILD)-portability $(TARGETS)
+
 # Each fault of tests/mutants/list, put into a copy of the sources, has to be noticed by a test; some half an hour.
 mutants:
 	.ci/install-packages run test
@@ -329,5 +336,5 @@ $(BUILD)-count/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run reference engines satellites mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects instructions error-bars event-bars events late-times implicit tighter methods impacts failures gallery python wheel live live-check lsp-check site check-format format lint install uninstall dist dist-check recipes recipes-check pages deb deb-check clean
+.PHONY: all run reference engines portability satellites mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects instructions error-bars event-bars events late-times implicit tighter methods impacts failures gallery python wheel live live-check lsp-check site check-format format lint install uninstall dist dist-check recipes recipes-check pages deb deb-check clean
 .SECONDARY:

@@ -1,6 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#if defined(__x86_64__)
-
 #include <float.h>
 #include <limits.h>
 #include <math.h>
@@ -9,6 +7,7 @@
 #include "base/sine.h"
 #include "batch/lanes.h"
 
+#if defined(__x86_64__)
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
 #else

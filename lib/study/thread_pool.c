@@ -32,7 +32,7 @@ static void write_place(fbd_sweep_workers *crew, const struct place *place)
         end_early(crew, FBD_SWEEP_REFUSED);
         return;
     }
-    crew->counts.written += place->made;
+    crew->counts.written += (size_t)place->made; /* no more than work.end, as `first` and `end` below */
     crew->counts.failed += place->failed;
     if (place->made < place->end - place->first)
         end_early(crew, place->rows.failed ? FBD_SWEEP_OUT_OF_MEMORY : FBD_SWEEP_STOPPED);
@@ -230,7 +230,7 @@ int fbd_sweep_claim(fbd_sweep_workers *crew, size_t jobs, fbd_sweep_share *share
     if (crew->work.stop && crew->work.stop(crew->work.stop_context) != 0) end_early(crew, FBD_SWEEP_STOPPED);
     bool none = is_used_up(crew);
     struct place *place = hand_out(crew, jobs);
-    if (place) *share = (fbd_sweep_share){place->first, place->end, place};
+    if (place) *share = (fbd_sweep_share){(size_t)place->first, (size_t)place->end, place};
     pthread_mutex_unlock(&crew->lock);
     return place ? 1 : none ? -1 : 0;
 }
