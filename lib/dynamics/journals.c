@@ -26,12 +26,6 @@ void journals_aim(const struct tree *tree, struct tree_work *work)
     }
 }
 
-/* The force in the joint of link i for the right-hand side solved last. */
-static struct vec force_in(const struct tree_work *work, int i)
-{
-    return inertia_wrench(&work->links[i].I, work->x[i].A, work->x[i].p).force;
-}
-
 /* A change d of n changes n . F by d^2/2 of it. */
 bool journals_turn(const struct tree *tree, const struct instant *at)
 {
@@ -41,7 +35,7 @@ bool journals_turn(const struct tree *tree, const struct instant *at)
     for (int k = 0; k < tree->pair_count; k++) {
         const int i = tree->pairs[k];
         if (!slips(tree, at, i)) continue;
-        const struct vec F = vec_add(work->links[i].F.force, force_in(work, i));
+        const struct vec F = vec_add(work->links[i].F.force, journal_force(work, i));
         change = fmax(change, journal_aim(tree, work, i, F));
     }
     return change > negligible;

@@ -32,6 +32,12 @@
 
 struct fbd_state;
 
+/* The force in the joint of link i for the right-hand side solved last. */
+static inline struct vec journal_force(const struct tree_work *work, int i)
+{
+    return inertia_wrench(&work->links[i].I, work->x[i].A, work->x[i].p).force;
+}
+
 /* Direct n of journal i along a reaction; zero for none. Returns the change of n. */
 double journal_aim(const struct tree *tree, struct tree_work *work, int i, struct vec F);
 

@@ -6,12 +6,6 @@
 #include "dynamics/state.h"
 #include "dynamics/tree_system.h"
 
-/* The force in the joint of link i for the right-hand side solved last. */
-static struct vec force_in(const struct tree_work *work, int i)
-{
-    return inertia_wrench(&work->links[i].I, work->x[i].A, work->x[i].p).force;
-}
-
 static struct tree_work *begin_unit(const struct fbd_model *model, struct fbd_state *state, int i)
 {
     struct tree_work *work = state->tree;
@@ -26,7 +20,7 @@ static void keep_forces(const struct tree *tree, struct tree_work *work, bool fi
 {
     for (int i = 1; i < tree->joined; i++) {
         struct vec *F = &work->links[i].F.force;
-        *F = first ? force_in(work, i) : vec_add(*F, force_in(work, i));
+        *F = first ? journal_force(work, i) : vec_add(*F, journal_force(work, i));
     }
 }
 
