@@ -13,6 +13,33 @@
 #include "standard_streams.h"
 #include "whole_file.h"
 
+bool finding_agrees(const struct options *options, const struct command_line *line)
+{
+    if (options->fit && (options->find || options->action == action_static))
+        return command_line_usage(line, "--fit goes without --find and --static", "");
+    if (options->action != action_run && options->action != action_static)
+        return command_line_usage(line, "--find and --fit go with a run, --find also with --static", "");
+    if ((options->find && (options->plot || options->gnuplot)) || options->svg || options->csv ||
+        options->html || options->note || options->plot_of || options->at_count || options->settle ||
+        options->watch || options->full || options->degrees)
+        return command_line_usage(
+            line,
+            "--find goes with --set, --without, --static, --runs, --json, --until, --method, --tolerance, "
+            "--step and --no-structure only, --fit also with --plot and --gnuplot",
+            "");
+    if (options->run.error_bars || options->run.accuracy > 0)
+        return command_line_usage(
+            line,
+            "--find and --fit have the errors of their values by themselves: without --error-bars "
+            "and --accuracy",
+            "");
+    if (options->fit && isfinite(options->run.until))
+        return command_line_usage(line,
+                                  "--until does not go with --fit: a run ends at the last time of the data",
+                                  "");
+    return true;
+}
+
 static bool is_among(const fbd_error *note, fbd_errors *errors)
 {
     for (size_t i = 0; i < fbd_errors_count(errors); i++) {

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "complain.h"
-#include "fbd_study.h"
+#include "fbd_linear.h"
 #include "fbd_view.h"
 #include "gnuplot.h"
 #include "picture.h"

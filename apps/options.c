@@ -8,6 +8,7 @@
 #include "cutting.h"
 #include "examples.h"
 #include "fbd_export.h"
+#include "finding.h"
 #include "fmu.h"
 #include "gnuplot.h"
 #include "grading.h"
@@ -380,29 +381,6 @@ static bool drawing_agrees(const struct options *options)
     return !options->svg || picture_can_be_written(&line, options->svg);
 }
 
-/* A search and a fit have runs (a search also statics), and a text and JSON of their own. */
-static bool find_agrees(const struct options *options)
-{
-    if (options->fit && (options->find || options->action == action_static))
-        return usage("--fit goes without --find and --static", "");
-    if (options->action != action_run && options->action != action_static)
-        return usage("--find and --fit go with a run, --find also with --static", "");
-    if ((options->find && (options->plot || options->gnuplot)) || options->svg || options->csv ||
-        options->html || options->note || options->plot_of || options->at_count || options->settle ||
-        options->watch || options->full || options->degrees)
-        return usage(
-            "--find goes with --set, --without, --static, --runs, --json, --until, --method, --tolerance, "
-            "--step and --no-structure only, --fit also with --plot and --gnuplot",
-            "");
-    if (options->run.error_bars || options->run.accuracy > 0)
-        return usage("--find and --fit have the errors of their values by themselves: without --error-bars "
-                     "and --accuracy",
-                     "");
-    if (options->fit && isfinite(options->run.until))
-        return usage("--until does not go with --fit: a run ends at the last time of the data", "");
-    return true;
-}
-
 /* The outputs of a run. */
 static bool outputs_agree(const struct options *options)
 {
@@ -445,7 +423,7 @@ static bool options_agree(const struct options *options)
         return usage("--at goes with --svg, --cut, --equations, --linearize or --static", "");
     if (options->svg && stands_still && !draws && !rests)
         return usage("--svg belongs to a run, --equations, --static or --linearize", "");
-    if ((options->find || options->fit) && !find_agrees(options)) return false;
+    if ((options->find || options->fit) && !finding_agrees(options, &line)) return false;
     if (options->parameters && !options->fit) return usage("--parameters goes with --fit", "");
     if (options->find_runs && !options->find) return usage("--runs goes with --find", "");
     if (!drawing_agrees(options)) return false;

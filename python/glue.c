@@ -7,6 +7,7 @@
 #include <fbd_export.h>
 #include <fbd_find.h>
 #include <fbd_grade.h>
+#include <fbd_linear.h>
 #include <fbd_section.h>
 #include <fbd_study.h>
 #include <fbd_view.h>

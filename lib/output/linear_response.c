@@ -149,7 +149,7 @@ static void write_script(struct text *text, const struct responses *responses, c
     text_add(text, "$data << END\n");
     for (size_t row = 0; row < responses->count; row++) write_values(text, responses, row, " ");
     text_add(text, "END\nset multiplot layout 2,1 title ");
-    gnuplot_quote(text, fbd_model_title(responses->system->linear->model));
+    gnuplot_quote(text, responses->system->linear->model->scene->title);
     text_add(text, " noenhanced\nset grid\nset lmargin 12\nset rmargin 4\nset logscale x\nset format x "
                    "'10^{%L}'\nset xrange [");
     text_number(text, responses->omega[0], digits);

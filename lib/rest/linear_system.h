@@ -16,6 +16,7 @@
 #define FBD_REST_LINEAR_SYSTEM_H
 
 #include "base/arena.h"
+#include "fbd_linear.h"
 #include "rest/linearize.h"
 #include "rest/transfer.h"
 

@@ -17,7 +17,7 @@
 #define FBD_REST_TRANSFER_H
 
 #include "base/arena.h"
-#include "fbd_study.h"
+#include "fbd_linear.h"
 
 /* A system with one input and one output; A size x size, row by row. */
 struct siso {

@@ -9,6 +9,7 @@
 #include "bad_calls.h"
 #include "fbd_export.h"
 #include "fbd_grade.h"
+#include "fbd_linear.h"
 #include "fbd_study.h"
 #include "fbd_view.h"
 

@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "fbd_linear.h"
 #include "gallery.h"
 #include "looked.h"
 
