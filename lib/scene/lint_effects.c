@@ -26,7 +26,8 @@ static void note_across(struct reader *reader, size_t b)
     const double right_angle = 1e-12; /* of the cosine: rounding of an angle */
     const struct body *body = &reader->scene->bodies[b];
     const double degrees = body->motion.along * 180 / acos(-1);
-    for (size_t i = 0; is_plain_slide(body) && i < body->load_count; i++) {
+    if (!is_plain_slide(body)) return;
+    for (size_t i = 0; i < body->load_count; i++) {
         const struct load *load = &body->loads[i];
         if (fabs(cos(angle_from_slide(body, load))) > right_angle) continue;
         diag_add(
@@ -70,8 +71,7 @@ static void note_through_axis(struct reader *reader, size_t b)
     if (vec_norm(reader->scene->gravity) == 0 || !only_weighs(body) || !is_on_its_centre(reader, b)) return;
     diag_add(reader->errors, FBD_WARNING, "through-axis", body->motion.at,
              "a pendulum needs the point of the body on the pivot, as `point: [0, 0.5 m]` or `point: left`; "
-             "where the "
-             "centre is meant, write `point: G`",
+             "where the centre is meant, write `point: G`",
              "the pivot of `%s` is at its centre of mass: its weight has no moment", body->name);
 }
 
