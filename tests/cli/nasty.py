@@ -103,7 +103,7 @@ def page(data, where):
     text = data.decode("utf-8")
     head = harmless(re.search(r"<title>(.*?)</title>", text, re.S)[1].encode(), where)
     assert "<" not in head
-    found = re.search(r'<script[^>]*type="application/json"[^>]*>(.*?)</script>', text, re.S)
+    found = re.search(r'<script[^>]*type="application/json" id="data">(.*?)</script>', text, re.S)
     harmless(json.loads(found[1])["title"].encode(), where)
     return len(re.findall(r"<script\b", text)), len(re.findall(r"</script\b", text)), len(re.findall(r"</?title\b", text))
 
