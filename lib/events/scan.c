@@ -455,15 +455,27 @@ static int look_by_series(struct scan *scan, double from, double *limit)
 
 /* ---- both searches */
 
+/* Sample all functions at the end of the bracket that was located last, and at its beginning those that may have
+ * crossed as well. */
+static int sample_bracket(struct scan *scan)
+{
+    struct scan_point *a = &scan->points[0], *b = &scan->points[1];
+    bool all = true, more = false;
+    for (size_t i = 0; i < scan->count; i++) all &= scan->chosen[i];
+    if (all) return 0;
+    int status = take_sample(scan, b, b->t, NULL);
+    for (size_t i = 0; i < scan->count; i++) more |= !scan->chosen[i] && b->values[i] < 0;
+    return status || !more ? status : take_sample(scan, a, a->t, NULL);
+}
+
 /* Mark the function found, and those that become negative at the same instant. */
 static int mark_crossed(struct scan *scan, double t)
 {
     if (scan->told) return 1;
-    /* The end of the bracket that was located last, or another one; now of all functions. */
+    /* The end of the bracket that was located last, or another one. */
     bool known = scan->located && scan->points[1].t == t;
     struct scan_point *point = &scan->points[known ? 1 : 2];
-    int status = known ? take_sample(scan, &scan->points[0], scan->points[0].t, NULL) : 0;
-    if (!status) status = take_sample(scan, point, t, NULL);
+    int status = known ? sample_bracket(scan) : take_sample(scan, point, t, NULL);
     if (status) return status;
     scan->t = t;
     /* Functions of the other pass may have been negative before. */
