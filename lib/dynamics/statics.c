@@ -61,7 +61,7 @@ static void transmit(const struct fbd_model *model, const struct instant *at, co
 static void leave_over(const struct tree_link *link, const struct tree_state *s, const double *slots,
                        double *Q)
 {
-    double share[most_coordinates_of_a_body];
+    double share[most_coordinates_of_a_body] = {0};
     joint_shares(link_joint(link), s, s->F, share);
     for (int k = 0; k < link_joint(link)->count; k++)
         Q[link->coordinate + k] = slots[link->coordinate + k] - share[k];

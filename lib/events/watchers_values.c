@@ -273,13 +273,29 @@ static void set_flow(struct view *view, enum needs needs)
                                     &view->margin);
 }
 
-void watchers_evaluate(const struct watchers *watchers, const struct watcher_set *set,
-                       struct fbd_state *state, struct time_dd t, const double *y, const bool *asked,
-                       double *values, double *rates)
+/* The margins of its kink are evaluated with those of the watcher before, if that is of the same one. */
+static double kink_value(const struct watchers *watchers, const struct watcher *watcher,
+                         const struct view *view, int *last_kink, double *rate)
 {
     /* A quantity at rest at its switch, as an integral at its limit, may be short of it by the error of the
      * step that reached it. */
     const double short_of = stop_shortfall / round_off(1, 1);
+    const struct kink *kink = &view->state->model->plan.kinks[watcher->index];
+    if (watcher->index != *last_kink) kink_margins(watchers, kink, view);
+    *last_kink = watcher->index;
+    const size_t entry = 2 * (size_t)watcher->part + (size_t)watcher->end;
+    const double value = watchers->scratch[entry], rounding = watchers->scratch[4 * kink->count + entry];
+    const bool held = watchers->held[kink->formula.branch + watcher->part];
+    *rate = 0;
+    if (held || slide_of(view->state, watcher)) return HUGE_VAL;
+    *rate = watchers->scratch[2 * kink->count + entry];
+    return *rate == 0 && value < 0 && value >= -short_of * rounding ? 0 : value;
+}
+
+void watchers_evaluate(const struct watchers *watchers, const struct watcher_set *set,
+                       struct fbd_state *state, struct time_dd t, const double *y, const bool *asked,
+                       double *values, double *rates)
+{
     const struct plan *plan = &state->model->plan;
     struct view view = {.state = state,
                         .at = state_instant_at(state, t.t, y),
@@ -301,21 +317,7 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
         }
         assert(view.slots || set == &watchers->timed || needs_of(watcher, state) < needs_forces);
         switch (watcher->kind) {
-        case watch_kink: {
-            const struct kink *kink = &plan->kinks[watcher->index];
-            if (watcher->index != last_kink) kink_margins(watchers, kink, &view);
-            last_kink = watcher->index;
-            size_t entry = 2 * (size_t)watcher->part + (size_t)watcher->end;
-            values[i] = watchers->scratch[entry];
-            rates[i] = watchers->scratch[2 * kink->count + entry];
-            double rounding = watchers->scratch[4 * kink->count + entry];
-            if (rates[i] == 0 && values[i] < 0 && values[i] >= -short_of * rounding) values[i] = 0;
-            bool held = watchers->held[kink->formula.branch + watcher->part];
-            if (!held && !slide_of(state, watcher)) break;
-            values[i] = HUGE_VAL;
-            rates[i] = 0;
-            break;
-        }
+        case watch_kink: values[i] = kink_value(watchers, watcher, &view, &last_kink, &rates[i]); break;
         case watch_contact:
             assert(view.slots && view.slots_along);
             values[i] = watchers_contact_slack(state->model, view.at.tree, &plan->contacts[watcher->index]) -

@@ -71,8 +71,8 @@ void plant_begin(struct plant *plant, double start, double stop, double toleranc
 /* Make model, simulation and state consistent with t and the present values. Returns false with a reason. */
 bool plant_update(struct plant *plant);
 
-/* The value of a variable after plant_update; NAN past the last one. */
-double plant_get(struct plant *plant, size_t variable);
+/* The value of variable `index` after plant_update; NAN past the last one. */
+double plant_get(struct plant *plant, size_t index);
 
 /* Advance to `target`; with `pause` at most to the first event after t. */
 enum plant_step plant_step(struct plant *plant, double target, bool pause);
