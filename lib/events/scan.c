@@ -11,48 +11,14 @@
  * interval, or round-off. The work is that of a thousand attempts of a step by bsimp at its longest, or two
  * thousand by others: where dense output repeats parts of the step, a sample may cost 64 of them, and an
  * interval without limit took minutes without a chance to interrupt the run. */
-enum { most_samples = 4096, spare_points = 3 };
+enum { most_samples = 4096 };
 static const unsigned long most_work = 300000;
-
-struct scan_point {
-    double t;
-    double *values, *rates;
-};
 
 static int take_counted(void *context, double t, const bool *asked, double *values, double *rates)
 {
     struct scan *scan = context;
     scan->samples++;
     return scan->sample(scan->context, t, asked, values, rates);
-}
-
-bool scan_init(struct scan *scan, size_t count, scan_sampler *sample, void *context, struct arena *memory)
-{
-    *scan = (struct scan){.count = count, .sample = sample, .context = context};
-    if (count == 0) return true; /* no functions */
-    scan->points = ARENA_ARRAY(memory, spare_points, struct scan_point);
-    double *next = ARENA_ARRAY(memory, (size_t)2 * spare_points * count, double);
-    scan->crossed = ARENA_ARRAY(memory, 7 * count, bool);
-    scan->lone = ARENA_ARRAY(memory, count, struct root_group);
-    scan->prover.now =
-        ARENA_ARRAY(memory, 2 * count, struct enclosure); /* enough for a group of all functions */
-    scan->prover.waiting = ARENA_ARRAY(memory, count, bool);
-    series_init(&scan->series, count, memory);
-    if (memory->failed) return false;
-    scan->prover.end = scan->prover.now + count;
-    scan->sampled = scan->crossed + count;
-    scan->chosen = scan->sampled + count;
-    scan->dipped = scan->chosen + count;
-    scan->waits = scan->dipped + count;
-    scan->silent = scan->waits + count;
-    scan->unfinished = scan->silent + count;
-    for (size_t i = 0; i < count; i++) {
-        scan->sampled[i] = true;
-        scan->lone[i] = (struct root_group){.first = i, .count = 1};
-    }
-    for (int i = 0; i < spare_points; i++, next += 2 * count)
-        scan->points[i] = (struct scan_point){0, next, next + count};
-    return true;
 }
 
 /* ---- samples */

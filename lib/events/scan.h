@@ -39,6 +39,11 @@ typedef double scan_zero(void *context, size_t i, double low, double high);
 /* Cost of all samples so far, in right-hand sides; an interval is also given up at a limit of this cost. */
 typedef unsigned long scan_worker(void *context);
 
+struct scan_point {
+    double t;
+    double *values, *rates; /* of all functions */
+};
+
 struct scan {
     size_t count;
     scan_sampler *sample;

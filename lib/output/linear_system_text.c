@@ -15,7 +15,7 @@ void linear_write_unit(struct text *text, const char *output, const char *input)
 {
     const bool pure = strcmp(input, "1") == 0 || !input[0];
     const char *above = output[0] ? output : "1";
-    const char *form = strchr(above, '/') && !pure ? "(%s)/" : pure ? "%s" : "%s/";
+    const char *form = pure ? "%s" : strchr(above, '/') ? "(%s)/" : "%s/";
     text_printf(text, form, above);
     if (!pure) text_printf(text, strpbrk(input, "*/") ? "(%s)" : "%s", input);
 }
