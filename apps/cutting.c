@@ -1,16 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cutting.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "complain.h"
+#include "deliver.h"
 #include "fbd_section.h"
-#include "picture.h"
-#include "place.h"
-#include "standard_streams.h"
-#include "whole_file.h"
 
 bool cutting_agrees(const struct options *options, const struct command_line *line, bool drawing)
 {
@@ -27,40 +22,15 @@ bool cutting_agrees(const struct options *options, const struct command_line *li
     return true;
 }
 
-/* Print a text of the library, or write it to a file, and free it. */
-static enum exit_code write_text(const char *path, char *text)
-{
-    if (!text) {
-        complain("fbd-run: out of memory");
-        return exit_failed;
-    }
-    bool written = true;
-    if (!path)
-        fputs(text, stdout);
-    else if (!(written = whole_file_put(path, text)))
-        complain("fbd-run: cannot write `%s`: %s", path, strerror(errno));
-    fbd_free(text);
-    return written && (path || standard_output_arrives("fbd-run")) ? exit_done : exit_failed;
-}
-
-static enum exit_code draw(const struct options *options, const fbd_section *section)
-{
-    char *svg = fbd_section_svg(section);
-    if (!svg) return write_text(NULL, NULL);
-    const bool written = picture_write(options->svg, svg);
-    fbd_free(svg);
-    return written ? exit_done : exit_failed;
-}
-
 static enum exit_code write_all(const struct options *options, const fbd_section *section, const double *x)
 {
     const bool quiet = options->quiet || options_use_stdout(options);
-    enum exit_code code = quiet ? exit_done : write_text(NULL, fbd_section_text(section, x));
-    if (code == exit_done && options->json) {
+    if (!quiet && !deliver_text(NULL, fbd_section_text(section, x))) return exit_failed;
+    if (options->json) {
         *options->json_written = true;
-        code = write_text(options->json, fbd_section_json(section, x));
+        if (!deliver_text(options->json, fbd_section_json(section, x))) return exit_failed;
     }
-    return code == exit_done && options->svg ? draw(options, section) : code;
+    return !options->svg || deliver_picture(options->svg, fbd_section_svg(section)) ? exit_done : exit_failed;
 }
 
 /* A wrong name or place is one of the command line. */

@@ -2,13 +2,13 @@
  *
  * fbd-run: read a model, inspect it or run it, and write the requested outputs.
  */
-#include <errno.h>
 #include <gsl/gsl_errno.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "complain.h"
 #include "cutting.h"
+#include "deliver.h"
 #include "examples.h"
 #include "fbd_export.h"
 #include "fbd_grade.h"
@@ -21,7 +21,6 @@
 #include "live_page.h"
 #include "options.h"
 #include "outputs.h"
-#include "picture.h"
 #include "place.h"
 #include "run_progress.h"
 #include "standard_streams.h"
@@ -35,10 +34,7 @@ static enum exit_code no_memory(void)
 /* Print a text of the library and free it. */
 static enum exit_code print(char *text, enum exit_code code)
 {
-    if (!text) return no_memory();
-    fputs(text, stdout);
-    fbd_free(text);
-    return standard_output_arrives("fbd-run") ? code : exit_failed;
+    return deliver_text(NULL, text) ? code : exit_failed;
 }
 
 /* Report a violated energy balance. */
@@ -129,11 +125,7 @@ static enum exit_code place(const fbd_model *model, const struct options *option
 /* Write a text of the library to a file, and free it. */
 static enum exit_code write_text(const char *path, char *text)
 {
-    if (!text) return no_memory();
-    bool written = whole_file_put(path, text);
-    if (!written) complain("fbd-run: cannot write `%s`: %s", path, strerror(errno));
-    fbd_free(text);
-    return written ? exit_done : exit_failed;
+    return deliver_text(path, text) ? exit_done : exit_failed;
 }
 
 /* The same for the JSON of a result. */
@@ -168,10 +160,7 @@ static enum exit_code write_notes(const struct options *options, fbd_errors *err
 
 static enum exit_code write_picture(const char *path, char *svg)
 {
-    if (!svg) return no_memory();
-    bool written = picture_write(path, svg);
-    free(svg);
-    return written ? exit_done : exit_failed;
+    return deliver_picture(path, svg) ? exit_done : exit_failed;
 }
 
 /* Draw the diagram of a state, if requested. */

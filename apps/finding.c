@@ -6,12 +6,10 @@
 #include <string.h>
 
 #include "complain.h"
+#include "deliver.h"
 #include "fbd_find.h"
 #include "fbd_view.h"
-#include "gnuplot.h"
 #include "place.h"
-#include "standard_streams.h"
-#include "whole_file.h"
 
 bool finding_agrees(const struct options *options, const struct command_line *line)
 {
@@ -67,19 +65,6 @@ static enum exit_code print_notes(fbd_errors *notes, fbd_errors *errors)
     return exit_code_for(code, notes);
 }
 
-static bool write_text(const char *path, char *text)
-{
-    bool written = text != NULL;
-    if (!text)
-        complain("fbd-run: out of memory");
-    else if (path && !(written = whole_file_put(path, text)))
-        complain("fbd-run: cannot write `%s`: %s", path, strerror(errno));
-    else if (!path)
-        fputs(text, stdout);
-    fbd_free(text);
-    return written && (path || standard_output_arrives("fbd-run"));
-}
-
 /* The searched value exists, and no run of the search failed. */
 static enum exit_code verdict(const fbd_find *find)
 {
@@ -109,8 +94,8 @@ enum exit_code finding(const fbd_model *model, const struct options *options, fb
     enum exit_code code = notes ? print_notes(notes, errors) : exit_failed;
     if (find) {
         const bool quiet = options->quiet || place_is_stdout(options->json);
-        bool written = quiet || write_text(NULL, fbd_find_text(find));
-        if (options->json && !write_text(options->json, fbd_find_json(find))) written = false;
+        bool written = quiet || deliver_text(NULL, fbd_find_text(find));
+        if (options->json && !deliver_text(options->json, fbd_find_json(find))) written = false;
         fflush(stdout);
         code = written ? verdict(find) : exit_failed;
     }
@@ -144,15 +129,6 @@ static char *read_text(const char *path, size_t *length)
     return NULL;
 }
 
-/* Cut the list of parameters at its commas. */
-static size_t cut_list(char *list, const char **names, size_t room)
-{
-    size_t count = 0;
-    for (char *name = list ? strtok(list, ", ") : NULL; name && count < room; name = strtok(NULL, ", "))
-        names[count++] = name;
-    return count;
-}
-
 static fbd_fit *fit_to(const fbd_model *model, const struct options *options, char *list, fbd_errors *notes)
 {
     enum { most_names = 100 };
@@ -173,31 +149,15 @@ static fbd_fit *fit_to(const fbd_model *model, const struct options *options, ch
     return fit;
 }
 
-/* Make the plot of a fit by gnuplot. */
-static bool plot_fit(const fbd_fit *fit, const char *path)
-{
-    struct whole_file file;
-    char *script = fbd_fit_gnuplot(fit, path);
-    const bool open = script && whole_file_open(&file, path),
-               made = open && gnuplot_run(script, fileno(file.stream));
-    const bool written = open && whole_file_close(&file, made);
-    if (!script)
-        complain("fbd-run: out of memory");
-    else if (!open || (made && !written))
-        complain("fbd-run: cannot write `%s`: %s", path, strerror(errno));
-    fbd_free(script);
-    return made && written;
-}
-
 /* A fit is done if the data determine all parameters. */
 static enum exit_code show_fit(const fbd_fit *fit, const struct options *options)
 {
     const bool quiet = options->quiet || options_use_stdout(options);
-    bool written = quiet || write_text(NULL, fbd_fit_text(fit)), determined = true;
-    if (options->json && !write_text(options->json, fbd_fit_json(fit))) written = false;
-    if (options->gnuplot && !write_text(options->gnuplot, fbd_fit_gnuplot(fit, options->plot)))
+    bool written = quiet || deliver_text(NULL, fbd_fit_text(fit)), determined = true;
+    if (options->json && !deliver_text(options->json, fbd_fit_json(fit))) written = false;
+    if (options->gnuplot && !deliver_text(options->gnuplot, fbd_fit_gnuplot(fit, options->plot)))
         written = false;
-    if (options->plot && !plot_fit(fit, options->plot)) written = false;
+    if (options->plot && !deliver_plot(options->plot, fbd_fit_gnuplot(fit, options->plot))) written = false;
     for (size_t i = 0; i < fbd_fit_count(fit); i++) determined &= !isinf(fbd_fit_get(fit, i).error);
     fflush(stdout);
     return written && determined ? exit_done : exit_failed;

@@ -1,32 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "linearizing.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "complain.h"
+#include "deliver.h"
 #include "fbd_linear.h"
 #include "fbd_view.h"
-#include "gnuplot.h"
-#include "picture.h"
-#include "place.h"
-#include "standard_streams.h"
-#include "whole_file.h"
 
 /* ---- the system */
 
 enum { most_signals = 100 };
-
-/* Cut a list at its commas. */
-static size_t cut_list(char *list, const char **names)
-{
-    size_t count = 0;
-    for (char *name = list ? strtok(list, ", ") : NULL; name && count < most_signals;
-         name = strtok(NULL, ", "))
-        names[count++] = name;
-    return count;
-}
 
 static fbd_linear_system *make_system(const struct options *options, const fbd_linearization *linear,
                                       fbd_errors *errors)
@@ -36,9 +20,9 @@ static fbd_linear_system *make_system(const struct options *options, const fbd_l
          *output_list = options->outputs ? strdup(options->outputs) : NULL;
     const fbd_linear_plan plan = {.size = sizeof plan,
                                   .inputs = inputs,
-                                  .input_count = cut_list(input_list, inputs),
+                                  .input_count = cut_list(input_list, inputs, most_signals),
                                   .outputs = outputs,
-                                  .output_count = cut_list(output_list, outputs)};
+                                  .output_count = cut_list(output_list, outputs, most_signals)};
     fbd_linear_system *system = fbd_linear_system_new(linear, &plan, errors);
     free(input_list);
     free(output_list);
@@ -60,50 +44,12 @@ static bool has_inputs(const fbd_model *model)
 
 /* ---- outputs */
 
-/* Print a text of the library, or write it to a file, and free it. */
-static bool write_text(const char *path, char *text)
-{
-    bool written = text != NULL;
-    if (!text)
-        complain("fbd-run: out of memory");
-    else if (path && !(written = whole_file_put(path, text)))
-        complain("fbd-run: cannot write `%s`: %s", path, strerror(errno));
-    else if (!path)
-        fputs(text, stdout);
-    fbd_free(text);
-    return written && (path || standard_output_arrives("fbd-run"));
-}
-
-static bool write_picture(const char *path, char *svg)
-{
-    if (!svg) complain("fbd-run: out of memory");
-    bool written = svg && picture_write(path, svg);
-    fbd_free(svg);
-    return written;
-}
-
-/* Make the Bode plot by gnuplot. */
-static bool plot(const fbd_linear_system *system, const char *path)
-{
-    struct whole_file file;
-    char *script = fbd_linear_system_gnuplot(system, path);
-    const bool open = script && whole_file_open(&file, path),
-               made = open && gnuplot_run(script, fileno(file.stream));
-    const bool written = open && whole_file_close(&file, made);
-    if (!script)
-        complain("fbd-run: out of memory");
-    else if (!open || (made && !written))
-        complain("fbd-run: cannot write `%s`: %s", path, strerror(errno));
-    fbd_free(script);
-    return made && written;
-}
-
 static bool write_responses(const struct options *options, const fbd_linear_system *system)
 {
-    if (options->csv && !write_text(options->csv, fbd_linear_system_csv(system))) return false;
-    if (options->gnuplot && !write_text(options->gnuplot, fbd_linear_system_gnuplot(system, options->plot)))
+    if (options->csv && !deliver_text(options->csv, fbd_linear_system_csv(system))) return false;
+    if (options->gnuplot && !deliver_text(options->gnuplot, fbd_linear_system_gnuplot(system, options->plot)))
         return false;
-    return !options->plot || plot(system, options->plot);
+    return !options->plot || deliver_plot(options->plot, fbd_linear_system_gnuplot(system, options->plot));
 }
 
 /* `system` may be NULL. */
@@ -111,15 +57,16 @@ static bool write_all(const struct options *options, const fbd_linearization *li
                       const fbd_linear_system *system)
 {
     const bool quiet = options->quiet || options_use_stdout(options);
-    if (!quiet && !write_text(NULL, system ? fbd_linear_system_text(system) : fbd_linearization_text(linear)))
+    if (!quiet &&
+        !deliver_text(NULL, system ? fbd_linear_system_text(system) : fbd_linearization_text(linear)))
         return false;
     if (options->json) {
         *options->json_written = true;
-        if (!write_text(options->json,
-                        system ? fbd_linear_system_json(system) : fbd_linearization_json(linear)))
+        if (!deliver_text(options->json,
+                          system ? fbd_linear_system_json(system) : fbd_linearization_json(linear)))
             return false;
     }
-    if (options->svg && !write_picture(options->svg, fbd_linearization_svg(linear))) return false;
+    if (options->svg && !deliver_picture(options->svg, fbd_linearization_svg(linear))) return false;
     return !system || write_responses(options, system);
 }
 
