@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "run_progress.h"
 
-/* Steps may take only a microsecond: clock and signals are checked once in so many of them, but at each of
- * the first steps, which may be slow ones of a large scene. */
-enum { steps_between_looks = 64, first_steps = 256 };
+/* A step or a row may take only a microsecond: clock and signals are checked once in so many of them, but at each
+ * of the first ones, which may be slow steps of a large scene. */
+enum { visits_between_looks = 64, first_visits = 256 };
 
 void run_progress_begin(struct run_progress *progress, const struct interrupt *interrupt, bool visible)
 {
@@ -26,8 +26,7 @@ int run_progress_watch(void *context, const fbd_progress *now)
 {
     struct run_progress *progress = context;
     double elapsed;
-    if (now->steps > first_steps && ++progress->visits < steps_between_looks) return 0;
-    progress->visits = 0;
+    if (++progress->visits > first_visits && progress->visits % visits_between_looks != 0) return 0;
     if (interrupt_asked(progress->interrupt)) return 1;
     if (now->t < progress->t) terminal_line_restart(&progress->line);
     progress->t = now->t;

@@ -12,7 +12,7 @@
 struct run_progress {
     const struct interrupt *interrupt;
     struct terminal_line line;
-    unsigned long visits; /* steps since the clock was read */
+    unsigned long visits; /* steps and rows so far */
     double t;             /* simulated time then [s]; a smaller value later means another run, of a search */
 };
 

@@ -52,6 +52,7 @@ struct going {
     unsigned long steps;
     bool whole;   /* no rows, record or error bars: no stops before the end */
     double slice; /* fraction of the run to the next common time of the islands */
+    double check; /* the next time at which the balance of forces and motion is checked */
 };
 
 /* After an interruption the islands continue to the end of a slice: a thousandth of the run, less where a stiff island
@@ -68,13 +69,18 @@ static void adapt_slice(struct going *going, unsigned long made)
         going->slice *= 2;
 }
 
+static double begin_of(const struct ensemble *ensemble)
+{
+    return ensemble->options.start ? ensemble->options.start->t : 0;
+}
+
 /* Report the progress; returns true if the run is to end. */
 static bool tell(const struct going *going, double t)
 {
     const fbd_recording *recording = going->recording;
     const struct ensemble *ensemble = going->result->simulation->ensemble;
     if (!recording || !recording->progress) return false;
-    double begin = ensemble->options.start ? ensemble->options.start->t : 0, end = ensemble->options.until;
+    double begin = begin_of(ensemble), end = ensemble->options.until;
     fbd_progress progress = {.what = "run",
                              .share = end > begin ? fmin(fmax((t - begin) / (end - begin), 0), 1) : 1,
                              .t = t,
@@ -158,6 +164,17 @@ static void go(struct going *going, double t, double near, bool pause)
     if (timed) simulation->seconds += processor_seconds() - before - (result->ledger_seconds - by_ledger);
 }
 
+/* Check the balance at a row or a step of the record: at each event, at the end, and at the others at most so many
+ * times in a run, since it costs as much as to write the row. */
+static void check_balance(struct going *going, bool event)
+{
+    const double most = 500;
+    struct ensemble *ensemble = going->result->simulation->ensemble;
+    if (!event && ensemble->outcome == FBD_GOING && ensemble->t < going->check) return;
+    ensemble_check_balance(ensemble);
+    going->check = ensemble->t + (ensemble->options.until - begin_of(ensemble)) / most;
+}
+
 /* Carry the run to the next such time. A row's time and another one that differ only by rounding are
  * distinct, so that the output does not depend on error bars. */
 static bool carry_on(struct going *going, struct csv *csv)
@@ -175,7 +192,7 @@ static bool carry_on(struct going *going, struct csv *csv)
     tell_progress(going, ensemble->t);
     bool event = ensemble->event_count > events;
     bool due = csv && (!other || event || ensemble->outcome != FBD_GOING);
-    if (due || result->record) ensemble_check_balance(ensemble);
+    if (due || result->record) check_balance(going, event);
     if (due && !csv_row(csv, ensemble, event)) return false;
     if (result->record && !record_step(result->record, ensemble, from, event)) return false;
     if (result->record && result->record->odd)
@@ -199,7 +216,7 @@ static bool carry(fbd_result *result, const fbd_recording *recording, struct csv
     struct ensemble *ensemble = simulation->ensemble;
     struct bars *bars = simulation->bars;
     bool whole = !csv && !result->record && !bars;
-    struct going going = {result, recording, 0, whole, first_slice};
+    struct going going = {result, recording, 0, whole, first_slice, 0};
     ensemble->options.ends_only = whole;
     if (result->ledger.works || (recording && recording->progress))
         ensemble->observer = (struct observer){&going, observe, observe_again};

@@ -176,10 +176,12 @@ void text_json_key(struct text *text, const char *name)
 
 void text_exact(struct text *text, double value)
 {
-    char buffer[64];
-    if (format_shortest(buffer, sizeof buffer, value == 0 ? 0.0 : value) < 0) return;
+    enum { room = 64 };
+    if (!text_reserve(text, room)) return;
+    int length = format_shortest(text->data + text->length, room, value == 0 ? 0.0 : value);
+    if (length < 0) return;
     text->odd |= !isfinite(value);
-    text_add(text, buffer);
+    text->length += (size_t)length;
 }
 
 void text_json_number(struct text *text, double value)

@@ -225,6 +225,14 @@ static bool look_run(struct run *run, double t, struct fbd_state *state)
     return t >= run->step.from && t < run->state->t && run_look(run, time_dd_at(t), state);
 }
 
+static bool place_run(struct run *run, double t, struct fbd_state *state)
+{
+    if (t != run->state->t)
+        return t >= run->step.from && t < run->state->t && run_place(run, time_dd_at(t), state);
+    state_copy(state, run->state);
+    return true;
+}
+
 /* The double nearest to the end of a step stands for the end, including its low part. */
 static bool look_run_before(struct run *run, double t, struct fbd_state *state)
 {
@@ -388,7 +396,8 @@ void ensemble_pass_on(const struct ensemble *ensemble, size_t index, struct fbd_
     scatter_ends(group, run->state, state);
 }
 
-static bool look(struct ensemble *ensemble, double t, look_at_run *look_at, struct fbd_state *state)
+/* Place the state of each run, and that of the whole. */
+static bool place(struct ensemble *ensemble, double t, look_at_run *look_at, struct fbd_state *state)
 {
     if (ensemble->count == 1) return look_at(ensemble->groups[0].run, t, state);
     for (size_t p = 0; p < ensemble->count; p++) {
@@ -403,7 +412,13 @@ static bool look(struct ensemble *ensemble, double t, look_at_run *look_at, stru
     }
     state_set_moment(state, time_dd_at(t));
     state->settled = true;
-    state_evaluate(state);
+    return true;
+}
+
+static bool look(struct ensemble *ensemble, double t, look_at_run *look_at, struct fbd_state *state)
+{
+    if (!place(ensemble, t, look_at, state)) return false;
+    if (ensemble->count > 1) state_evaluate(state);
     return true;
 }
 
@@ -415,6 +430,15 @@ bool ensemble_look(struct ensemble *ensemble, double t, struct fbd_state *state)
 bool ensemble_look_before(struct ensemble *ensemble, double t, struct fbd_state *state)
 {
     return look(ensemble, t, look_run_before, state);
+}
+
+const struct fbd_state *ensemble_placed(struct ensemble *ensemble)
+{
+    if (!ensemble->current) {
+        ensemble_rewind(ensemble, ensemble->t);
+        place(ensemble, ensemble->t, place_run, ensemble->state);
+    }
+    return ensemble->state;
 }
 
 struct fbd_state *ensemble_state(struct ensemble *ensemble)

@@ -234,7 +234,9 @@ static inline void run_evaluate(struct run *run)
 /* One turn of the loop. */
 fbd_outcome run_advance(struct run *run);
 
-/* The state at t in [from, state->t] of the last step, in the modes of that step, with its accelerations. */
+/* The state at t in [from, state->t] of the last step, in the modes of that step: its numbers y alone, or with its
+ * accelerations too. */
+bool run_place(struct run *run, struct time_dd t, struct fbd_state *state);
 bool run_look(struct run *run, struct time_dd t, struct fbd_state *state);
 
 /* Coordinates, rates and user states at t (plan_size), from the dense output alone. */

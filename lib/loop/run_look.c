@@ -26,12 +26,18 @@ bool run_coordinates(struct run *run, struct time_dd t, double *y)
     return true;
 }
 
-bool run_look(struct run *run, struct time_dd t, struct fbd_state *state)
+bool run_place(struct run *run, struct time_dd t, struct fbd_state *state)
 {
     state_copy(state, run->during);
     state_set_moment(state, t);
     if (!run_coordinates(run, t, state->y)) return false;
     modes_hold(state);
+    return true;
+}
+
+bool run_look(struct run *run, struct time_dd t, struct fbd_state *state)
+{
+    if (!run_place(run, t, state)) return false;
     state_evaluate(state);
     return true;
 }

@@ -38,7 +38,7 @@ static void field(struct csv *csv, double value)
 {
     if (csv->numbers) numbers_add(csv->numbers, value);
     if (!csv->recording->csv) return;
-    if (csv->line.length > 0) text_add(&csv->line, ",");
+    if (csv->line.length > 0) text_add_bytes(&csv->line, ",", 1);
     if (isfinite(value)) text_exact(&csv->line, value);
 }
 
@@ -71,7 +71,7 @@ static bool refuse_line(struct csv *csv, struct ensemble *ensemble)
 
 static bool row(struct csv *csv, struct ensemble *ensemble)
 {
-    const struct fbd_state *state = ensemble_state(ensemble);
+    const struct fbd_state *state = csv->evaluated ? ensemble_state(ensemble) : ensemble_placed(ensemble);
     const struct run_columns *columns = &csv->columns;
     struct bars *bars = csv->bars;
     struct column_view view, companion;
@@ -94,6 +94,15 @@ static bool row(struct csv *csv, struct ensemble *ensemble)
 }
 
 /* ---- the file */
+
+static bool needs_evaluation(const struct csv *csv)
+{
+    for (size_t i = 0; i < csv->columns.count; i++) {
+        const struct run_column *column = &csv->columns.list[i];
+        if (column->kind != column_time && !column_is_entry(column)) return true;
+    }
+    return csv->bars != NULL;
+}
 
 bool csv_begin(struct csv *csv, fbd_result *result, const fbd_recording *recording)
 {
@@ -121,6 +130,7 @@ bool csv_begin(struct csv *csv, fbd_result *result, const fbd_recording *recordi
                                         .arrows = csv->arrows};
     const unsigned uses = column_in_csv | (csv->ledger ? column_in_ledger : 0u);
     if (!run_columns_make(&csv->columns, uses, ensemble_state(run))) return false;
+    csv->evaluated = needs_evaluation(csv);
     csv->values = calloc(csv->columns.count, sizeof *csv->values);
     csv->others = calloc(csv->columns.count, sizeof *csv->others);
     if (!csv->values || !csv->others) return false;
