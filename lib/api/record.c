@@ -19,6 +19,7 @@ bool simulation_begin(fbd_simulation *simulation, const struct fbd_model *model,
 {
     struct run_options own = *options;
     own.ends_only = !simulation->bars;
+    own.delays = simulation->bars != NULL;
     simulation->ensemble = ensemble_new(model, &own);
     return simulation->ensemble && (!simulation->bars || bars_init(simulation->bars, model, options));
 }

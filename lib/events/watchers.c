@@ -152,6 +152,7 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
     watchers->timed = (struct watcher_set){.watchers = ARENA_ARRAY(memory, timed + 1, struct watcher)};
     watchers->moving = (struct watcher_set){.watchers = ARENA_ARRAY(memory, moving + 1, struct watcher)};
     watchers->affine = ARENA_ARRAY(memory, moving + 1, struct affine);
+    watchers->slacks = ARENA_ARRAY(memory, moving + 1, double);
     watchers->scratch = ARENA_ARRAY(memory, 6 * margins + 1, double);
     watchers->held = ARENA_ARRAY(memory, (size_t)plan->branches + 1, bool);
     watchers->zeros = ARENA_ARRAY(memory, (size_t)plan->branches + 1, int);

@@ -63,6 +63,7 @@ struct watchers {
     double width;                /* of the bands of user events, relative to the largest size */
     bool *held;                  /* per branch: sticking keeps the switch at zero; it is not watched */
     int *zeros;                  /* scratch for that: components that are zero */
+    double *slacks;              /* scratch: of watchers_delay */
     double *place;               /* scratch: a state with these zeros, and as many zeros */
     double *fast,
         *quiet; /* per mode: largest driven slip speed; band of it that is ignored, see watchers_arm */
@@ -79,6 +80,13 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
 void watchers_evaluate(const struct watchers *watchers, const struct watcher_set *set,
                        struct fbd_state *state, struct time_dd t, const double *y, const bool *asked,
                        double *values, double *rates);
+
+/* How late may an event be whose functions of the moving set have crossed at (t, y)? A function is zero where a force is
+ * past its limit, or a corner past an edge, by some roundings, so that nothing happens by rounding alone: the delay [s] is
+ * the largest of these divided by the rate of the function; 0 where the zero was that of the force itself (affine.h). Gaps
+ * have none: a body that has met another one is as deep at each meeting after that. 2 `values` of each are scratch. */
+double watchers_delay(const struct watchers *watchers, struct fbd_state *state, struct time_dd t,
+                      const double *y, const bool *crossed, double *values);
 
 /* The same for the moving set, at a state whose derivative dy is that of the modes in use. False if a
  * function is not affine. */
@@ -108,6 +116,9 @@ void watchers_follow(struct watchers *watchers, const struct fbd_state *state);
 /* Set the round-off level of sampled functions, in the modes of `state` at its present point; a zero within
  * twice that level does not count. Other entries are left unchanged. */
 void watchers_set_rounding(const struct watcher_set *set, const struct fbd_state *state, double *rounding);
+
+/* A part of watchers_arm: set `quiet`. */
+void watchers_calm(struct watchers *watchers, const struct fbd_state *state, double step);
 
 /* A part of watchers_follow: set `held`. */
 void watchers_hold(struct watchers *watchers, const struct fbd_state *state);

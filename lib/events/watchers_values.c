@@ -31,6 +31,7 @@ struct view {
     struct arena arena;
     bool shared, told; /* the forces of a load are redundant; a watcher has its margin already */
     struct rest_margin margin;
+    double slack; /* at the zero of the last value a force or speed is so far past its limit */
 };
 
 static void look_at_friction(struct view *view, int pair)
@@ -54,7 +55,7 @@ static double user_value(const struct watch *watch, const struct view *view, dou
 /* Closed: the force. Open: the distance to closing; just after opening that is round-off, which must not
  * close it. */
 static double one_sided_value(const struct watchers *watchers, const struct watcher *watcher,
-                              const struct view *view, double *rate)
+                              struct view *view, double *rate)
 {
     const struct fbd_model *model = view->state->model;
     int coupling = model->plan.modes[watcher->index].coupling;
@@ -63,15 +64,17 @@ static double one_sided_value(const struct watchers *watchers, const struct watc
     struct one_sided now = one_sided_at(model, &view->at, watcher->index);
     if (view->at.slip[watcher->index] != stick) {
         *rate = -now.rate;
-        return now.rounding + watchers->quiet[watcher->index] - now.excess;
+        view->slack = now.rounding + watchers->quiet[watcher->index];
+        return view->slack - now.excess;
     }
+    view->slack = now.slack;
     double lambda_rate = view->state->tree->z[model->tree->couplings[coupling].first_row];
     *rate = model->plan.modes[watcher->index].kind == mode_rope ? -lambda_rate : lambda_rate;
     return now.force + now.slack;
 }
 
 /* The normal force while the contact is closed. */
-static double lift_value(const struct watcher *watcher, const struct view *view, double *rate)
+static double lift_value(const struct watcher *watcher, struct view *view, double *rate)
 {
     const struct fbd_model *model = view->state->model;
     const struct mode *mode = &model->plan.modes[watcher->index];
@@ -80,7 +83,8 @@ static double lift_value(const struct watcher *watcher, const struct view *view,
     int slot = model->tree->couplings[mode->coupling].normal_slot;
     assert(view->slots && view->slots_along);
     *rate = -view->slots_along[slot];
-    return contact_slack(model, mode->coupling) - view->slots[slot];
+    view->slack = contact_slack(model, mode->coupling);
+    return view->slack - view->slots[slot];
 }
 
 /* The gap. Just after opening it is round-off, which must not close it. */
@@ -98,7 +102,7 @@ static double gap_value(const struct watchers *watchers, const struct watcher *w
 
 /* Distance of the contact point to the end of the side; a point within `near` beyond the end is still on the
  * side. */
-static double edge_value(const struct watcher *watcher, const struct view *view, double *rate)
+static double edge_value(const struct watcher *watcher, struct view *view, double *rate)
 {
     const struct fbd_model *model = view->state->model;
     int meeting = model->tree->couplings[watcher->index].meeting;
@@ -107,7 +111,8 @@ static double edge_value(const struct watcher *watcher, const struct view *view,
         gap = feature_end(model, view->state->tree, meeting,
                           view->state->tree->couplings[watcher->index].feature, watcher->end);
     *rate = gap.rate;
-    return gap.x < HUGE_VAL ? gap.x + 2 * meeting_near(model, view->state->tree, meeting) : HUGE_VAL;
+    view->slack = 2 * meeting_near(model, view->state->tree, meeting);
+    return gap.x < HUGE_VAL ? gap.x + view->slack : HUGE_VAL;
 }
 
 static double friction_value(const struct watchers *watchers, const struct watcher *watcher,
@@ -120,6 +125,7 @@ static double friction_value(const struct watchers *watchers, const struct watch
     if (mode_is_off_surface(view->state, watcher->index)) return HUGE_VAL;
     if (watcher->kind == watch_slip_stop) {
         if (slip == stick || friction_is_idle(model, watcher->index, &view->at, &view->flow)) return HUGE_VAL;
+        view->slack = watchers->quiet[watcher->index];
         if (mode->coupling >= 0) {
             *rate = slip * coupling_slip_acceleration(model, &view->at, mode->coupling);
             return slip * coupling_slip_velocity(model, &view->at, mode->coupling) +
@@ -136,17 +142,17 @@ static double friction_value(const struct watchers *watchers, const struct watch
     const struct friction_values *now = &view->now, *d = &view->along;
     if (watcher->kind == watch_normal_turns) {
         *rate = view->at.pull[watcher->index] * d->N;
-        double slack = mode->kind != mode_single ? press_slack(model, view->at.tree, mode->body) : 0;
-        return view->at.pull[watcher->index] * now->N + slack;
+        if (mode->kind != mode_single) view->slack = press_slack(model, view->at.tree, mode->body);
+        return view->at.pull[watcher->index] * now->N + view->slack;
     }
     int side = watcher->end == 0 ? 1 : -1;
     bool kinetic = now->limit_kinetic > now->limit_static; /* as in friction_decide */
     *rate = (kinetic ? d->limit_kinetic : d->limit_static) - side * d->hold;
     /* A force that barely touches its limit must not break away by a rounding. */
-    double slack = friction_rounding(now);
+    view->slack = friction_rounding(now);
     if (mode->coupling >= 0 && model->tree->couplings[mode->coupling].meeting >= 0)
-        slack += contact_slack(model, mode->coupling);
-    return now->limit - side * now->hold + slack;
+        view->slack += contact_slack(model, mode->coupling);
+    return now->limit - side * now->hold + view->slack;
 }
 
 /* Does the watcher belong to a set of redundant forces? One watcher stands for all of them. */
@@ -167,7 +173,8 @@ static double shared_value(struct view *view, const struct watcher *watcher, dou
     bool told = view->told || turns; /* where the normal force reverses, no friction acts */
     view->told |= !told;
     *rate = told ? 0 : view->margin.rate;
-    return told ? HUGE_VAL : view->margin.value + rest_margin_slack(&view->margin);
+    view->slack = rest_margin_slack(&view->margin);
+    return told ? HUGE_VAL : view->margin.value + view->slack;
 }
 
 /* The Filippov sliding mode on the switch of a watcher; NULL when there is none. */
@@ -292,9 +299,10 @@ static double kink_value(const struct watchers *watchers, const struct watcher *
     return *rate == 0 && value < 0 && value >= -short_of * rounding ? 0 : value;
 }
 
-void watchers_evaluate(const struct watchers *watchers, const struct watcher_set *set,
-                       struct fbd_state *state, struct time_dd t, const double *y, const bool *asked,
-                       double *values, double *rates)
+/* As watchers_evaluate; with `slacks`, or NULL. */
+static void evaluate(const struct watchers *watchers, const struct watcher_set *set, struct fbd_state *state,
+                     struct time_dd t, const double *y, const bool *asked, double *values, double *rates,
+                     double *slacks)
 {
     const struct plan *plan = &state->model->plan;
     struct view view = {.state = state,
@@ -306,8 +314,10 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
     int last_kink = -1;
     for (size_t i = 0; i < set->count; i++) {
         const struct watcher *watcher = &set->watchers[i];
+        view.slack = 0;
         if (watches_share(watcher, &view)) {
             values[i] = shared_value(&view, watcher, &rates[i]);
+            if (slacks) slacks[i] = view.slack;
             continue;
         }
         if (asked && !asked[i]) {
@@ -320,8 +330,8 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
         case watch_kink: values[i] = kink_value(watchers, watcher, &view, &last_kink, &rates[i]); break;
         case watch_contact:
             assert(view.slots && view.slots_along);
-            values[i] = watchers_contact_slack(state->model, view.at.tree, &plan->contacts[watcher->index]) -
-                        view.slots[plan->contacts[watcher->index].slot];
+            view.slack = watchers_contact_slack(state->model, view.at.tree, &plan->contacts[watcher->index]);
+            values[i] = view.slack - view.slots[plan->contacts[watcher->index].slot];
             rates[i] = -view.slots_along[plan->contacts[watcher->index].slot];
             break;
         case watch_user: {
@@ -340,8 +350,29 @@ void watchers_evaluate(const struct watchers *watchers, const struct watcher_set
         case watch_stick_limit:
         case watch_normal_turns: values[i] = friction_value(watchers, watcher, &view, &rates[i]); break;
         }
+        if (slacks) slacks[i] = view.slack;
     }
     state_take_back(state, &view.arena);
+}
+
+void watchers_evaluate(const struct watchers *watchers, const struct watcher_set *set,
+                       struct fbd_state *state, struct time_dd t, const double *y, const bool *asked,
+                       double *values, double *rates)
+{
+    evaluate(watchers, set, state, t, y, asked, values, rates, NULL);
+}
+
+double watchers_delay(const struct watchers *watchers, struct fbd_state *state, struct time_dd t,
+                      const double *y, const bool *crossed, double *values)
+{
+    const struct watcher_set *set = &watchers->moving;
+    double *rates = values + set->count, *slacks = watchers->slacks, delay = 0;
+    memset(slacks, 0, set->count * sizeof *slacks);
+    evaluate(watchers, set, state, t, y, crossed, values, rates, slacks);
+    for (size_t i = 0; i < set->count; i++)
+        if (crossed[i] && rates[i] < 0 && values[i] <= slacks[i] / 2)
+            delay = fmax(delay, (slacks[i] + fmin(fabs(values[i]), slacks[i])) / -rates[i]);
+    return delay;
 }
 
 void watchers_evaluate_timed(const struct watchers *watchers, struct fbd_state *state, struct time_dd t,
@@ -373,70 +404,6 @@ static double user_rate(const struct watch *watch, struct fbd_state *state)
     return rate;
 }
 
-/* The speed that the body of a pair that has never moved would have reached by its friction limit alone. */
-static double speed_to_come(const struct fbd_state *state, int pair)
-{
-    const struct fbd_model *model = state->model;
-    const struct model_body *body = &model->bodies[model->plan.modes[pair].body];
-    const struct instant at = state_instant(state);
-    double limit = friction_at(model, pair, &at, state->slots).limit, inertia = coordinate_inertia(body, 0);
-    return inertia > 0 ? limit * fabs(state->t) / inertia : 0;
-}
-
-/* Twice the speed with which a slipping pair still moves against its slip direction although it accelerates
- * in that direction: a residue of projecting velocities onto other couplings. 0 if it moves in the slip
- * direction, or too fast for such a residue. `v`: its velocity in the slip direction. */
-static double short_of_side(const struct fbd_state *state, int pair, double v)
-{
-    const double rounding = slip_residue;
-    const struct instant at = state_instant(state);
-    double fastest = 0;
-    if (v >= 0) return 0;
-    for (int i = 1; i < state->model->tree->joined; i++)
-        fastest = fmax(fastest, vec_norm(state->tree->links[i].v));
-    double to_its_side = slip_side(state->slip[pair]) * tree_hold_acceleration(state, &at, pair);
-    return -v <= rounding * fastest && to_its_side > 0 ? -2 * v : 0;
-}
-
-/* A pair that breaks away at its limit first has an acceleration of round-off, which may have the wrong sign.
- * The band applies to the first, very short steps only: a body that others block does not move, and sticks
- * again after them. */
-static void calm_beginning(struct watchers *watchers, const struct fbd_state *state, size_t pair, double step)
-{
-    const double band = slip_band, least = least_slip_band, instant = slip_beginning;
-    const struct instant at = state_instant(state);
-    if (state->slip[pair] == stick || !mode_is_friction(&state->model->plan.modes[pair])) return;
-    double along = slip_velocity(state->model, (int)pair, &at), v = fabs(along),
-           *fast = &watchers->fast[pair];
-    watchers->quiet[pair] = short_of_side(state, (int)pair, slip_side(state->slip[pair]) * along);
-    *fast = fmax(*fast, v);
-    if (v == 0) *fast = fmax(*fast, speed_to_come(state, (int)pair));
-    if (v > 0 && (step > instant * fabs(state->t) || v > least * *fast)) return;
-    watchers->quiet[pair] = band * *fast;
-}
-
-/* A pair whose driven slip passes smoothly through zero has a speed of round-off for some time. */
-static void calm_driven(struct watchers *watchers, const struct fbd_state *state, double step)
-{
-    const double near = 10;
-    for (size_t i = 0; i < state->model->plan.mode_count; i++) {
-        if (mode_is_one_sided(&state->model->plan.modes[i])) continue;
-        watchers->quiet[i] = 0;
-        if (state->slip_driven[i] == 0) {
-            calm_beginning(watchers, state, i, step);
-            continue;
-        }
-        struct instant at = state_instant(state);
-        int side = slip_side(state->slip[i]);
-        double v = side * slip_velocity(state->model, (int)i, &at);
-        bool rests = v == 0 && !(side * tree_hold_acceleration(state, &at, (int)i) > 0);
-        watchers->fast[i] = fmax(watchers->fast[i], v);
-        double band =
-            rests ? HUGE_VAL : fmax(watchers->width * watchers->fast[i], tree_unseen_speed(state, step));
-        if (fabs(v) <= near * band) watchers->quiet[i] = band;
-    }
-}
-
 /* Does the coupling that begins or ends there wait for the other one, or has it begun or ended? */
 static bool watch_is_over(const struct fbd_state *state, const struct watch *watch)
 {
@@ -448,7 +415,7 @@ static bool watch_is_over(const struct fbd_state *state, const struct watch *wat
 void watchers_arm(struct watchers *watchers, struct fbd_state *state, double step)
 {
     const struct plan *plan = &state->model->plan;
-    if (tree_joins(state->model->tree)) calm_driven(watchers, state, step);
+    if (tree_joins(state->model->tree)) watchers_calm(watchers, state, step);
     if (plan->watch_count == 0) return;
     const struct instant now = state_instant(state), at = instant_extend(state->model, &now);
     if (state->model->names_reactions) reactions_copy(state->model, state->y, state->extended);

@@ -343,7 +343,7 @@ void companion_event_errors(const struct companion *companion, const struct ense
                 error = error_at_the_end(companion, t);
             double gap = fmin(t - before, after - t);
             if (gap > 0 && error > gap / 2 + 8 * DBL_EPSILON * t) known = false;
-            errors[i] = known ? error : HUGE_VAL;
+            errors[i] = known ? error + main->events[i].delay : HUGE_VAL;
             if (k < own->event_count) k = next_alike(own, &main->events[first], k + 1);
             before = t;
         }

@@ -20,8 +20,13 @@ struct run_event *log_event(struct run *run, fbd_event_kind kind, int body, int 
         run->log.room = room;
     }
     struct run_event *event = &run->log.events[run->log.count++];
-    *event = (struct run_event){
-        .t = run_time(run), .kind = kind, .body = body, .load = load, .watch = watch, .own = -1};
+    *event = (struct run_event){.t = run_time(run),
+                                .delay = run->delay,
+                                .kind = kind,
+                                .body = body,
+                                .load = load,
+                                .watch = watch,
+                                .own = -1};
     return event;
 }
 

@@ -419,6 +419,10 @@ static bool apply_events(struct run *run, const struct turn *turn)
     if (happens) run_check_jam(run, false);
     if (run->end.outcome != FBD_GOING) return false;
     run->stale = !happens;
+    run->delay = turn->moving && run->options.delays
+                     ? watchers_delay(&run->watchers, run->during, run_end(run), run->state->y,
+                                      run->search.moving.crossed, run->work.values)
+                     : 0;
     if (happens) {
         double struck = energy_of_impacts(run);
         run_apply(run, turn->timed ? run->search.timed.crossed : NULL,

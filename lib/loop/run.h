@@ -41,12 +41,14 @@ struct run_options {
     bool automatic;                /* switch between the explicit and the stiff method as needed */
     bool structure;                /* exploit the structure of the plan (structure.h) */
     bool apart;                    /* of a companion: where events set steps, they differ */
+    bool delays;                   /* of events are asked for, see run_event */
     bool ends_only;                /* states between start and end are not asked for */
     const struct fbd_state *start; /* initial state of the whole model; NULL: that of the file */
 };
 
 struct run_event {
     double t;
+    double delay; /* it may be so late, since a force passes its limit by some roundings before it acts [s] */
     fbd_event_kind kind;
     int body, load, watch; /* -1 where it does not apply */
     int own;               /* a switch in the rate of this user state, or -1 */
@@ -166,8 +168,9 @@ struct run {
     bool lazy;        /* no step needs the forces of `state` at its end */
     bool plain;       /* nor can a step be cut or projected: no events and couplings */
     bool undisturbed; /* nor can a step be cut: no events, and couplings without limits */
-    bool leaps; /* plain and linear, and works follow from potentials: steps need not resolve the motion */
-    bool stale; /* the forces have not been evaluated at the time of `state` */
+    bool leaps;   /* plain and linear, and works follow from potentials: steps need not resolve the motion */
+    bool stale;   /* the forces have not been evaluated at the time of `state` */
+    double delay; /* of the events at the end of the last step, see run_event */
 
     struct counted_system system;
     struct rates *rates; /* in the modes of `during` */

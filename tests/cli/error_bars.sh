@@ -33,6 +33,13 @@ assert set(result["energy_error"]) == {"kinetic", "potential", "work", "residual
 assert 0 < result["stats"]["error_estimate"] < 1e-8
 assert plain["stats"]["error_estimate"] is None and "final_error" not in plain
 END
+check 'the delay of a breakaway, whose force passes its limit by rounding, is in its error: 1.4715 s by hand' python3 - "$FBD_RUN" "$models/contact/push_slide_or_tip.yaml" <<'END'
+import json, subprocess, sys
+for options in ([], ["--method", "dop853", "--tolerance", "1e-14"]):
+    out = subprocess.run([sys.argv[1], "--json", "-", "--error-bars", *options, sys.argv[2]], capture_output=True, check=True).stdout
+    breakaway = [e for e in json.loads(out)["events"] if e["kind"] == "breakaway"]
+    assert breakaway and all(abs(e["t"] - 1.4715) <= e["t_error"] < 1e-9 for e in breakaway), breakaway
+END
 check 'the report has them' run --error-bars "$belt"
 check 'at the end' says 'x = 0\.[0-9]+ ± [0-9.]+e-[0-9]+ m ' out
 check 'at events' says 't = 0\.1962 ± [0-9.]+e-[0-9]+ s +block +breakaway' out

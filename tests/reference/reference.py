@@ -31,9 +31,6 @@ SAMPLES = 10  # evenly spaced times after the start
 DIGITS = 5e-13  # an error of more than this, of the size, has less than 12 digits
 ROUNDING = 8e-15  # of a closed form, of the size
 SMALLEST = 1e-2  # size of a quantity, in its unit, that is smaller all the time
-# Events that a force decides: the library lets forces differ from their limits by 1e-12 of their size, in both runs, which no
-# error bar contains. Closed forms show a delay of up to 3e-13 s.
-OF_FORCES = ("breakaway", "lift_off", "rope_slack")
 GRAVITY = 9.81
 
 
@@ -123,8 +120,6 @@ class Reference:
         closed, rows = self.system.events(self.p), []
         for n, pair in enumerate(zip(first, second)):
             error = both(*((event["t"], inf if event["t_error"] is None else event["t_error"]) for event in pair))
-            if kinds[0][n][0] in OF_FORCES:
-                error = max(error, DIGITS * self.until)
             rows.append((*kinds[0][n], Value("t", "s", pair[0]["t"], error, closed.get(n))))
         return rows
 
