@@ -65,6 +65,49 @@ static void pin(const struct view *view, const struct coupling *coupling, const 
     }
 }
 
+/* Add a couple of moment r on end 0 and its opposite on end 1, each as two forces at the ends of a diameter. */
+static void add_couples(const struct coupling *coupling, double r, double force, struct row *row)
+{
+    const struct vec none = {0, 0};
+    for (int i = 0; i < 4; i++) {
+        const int k = i / 2, side = i % 2 == 0 ? 1 : -1;
+        const struct vec f = {0, (k == 0 ? side : -side) * force};
+        row->ports[row->port_count++] = (struct port){coupling->end[k].link, k, {side * r, 0}, f, none, none};
+    }
+}
+
+/* End 1 of a weld: where end 0 was at the begin. */
+static struct coupling_end welded_end(const struct coupling *coupling, const struct coupling_state *state)
+{
+    struct coupling_end end = coupling->end[1];
+    end.point = (struct vec){state->laid[0], state->laid[1]};
+    return end;
+}
+
+static void weld(const struct view *view, const struct coupling *coupling, const struct coupling_state *state,
+                 struct row *rows)
+{
+    struct coupling as_pin = *coupling;
+    const double r = coupling->end[0].radius;
+    as_pin.end[1] = welded_end(coupling, state);
+    pin_along(view, &as_pin, rows);
+    if (!coupling_has_couple(coupling)) return;
+    struct jet turned = jet_sub(angle_of(view, coupling->end[0].link), angle_of(view, coupling->end[1].link));
+    start_row(&rows[2], jet_sub(jet_scale(r, turned), jet_constant(state->zero)));
+    add_couples(coupling, r, 0.5, &rows[2]);
+}
+
+static void weld_start(const struct view *view, const struct coupling *coupling, struct coupling_state *state,
+                       struct row *rows)
+{
+    const struct tree_state *base = &view->work->links[coupling->end[1].link];
+    const struct vec apart = vec_sub(jet_value(point_of(view, &coupling->end[0])), base->p);
+    state->laid[0] = vec_dot(base->turn, apart);
+    state->laid[1] = vec_cross(base->turn, apart);
+    weld(view, coupling, state, rows);
+    if (coupling_has_couple(coupling)) state->zero = rows[2].g.x;
+}
+
 static void rod(const struct view *view, const struct coupling *coupling, const struct coupling_state *state,
                 struct row *row)
 {
@@ -101,15 +144,9 @@ static void resistance(const struct view *view, const struct coupling *coupling,
                        const struct coupling_state *state, struct row *row)
 {
     const double r = coupling->end[0].radius;
-    const struct vec none = {0, 0};
     struct jet g = jet_sub(angle_of(view, coupling->end[0].link), angle_of(view, coupling->end[1].link));
     start_row(row, jet_sub(g, jet_constant(state->zero)));
-    for (int i = 0; i < 4; i++) {
-        const int k = i / 2, side = i % 2 == 0 ? 1 : -1;
-        const struct vec force = {0, (k == 0 ? side : -side) / (2 * r)};
-        row->ports[row->port_count++] =
-            (struct port){coupling->end[k].link, k, {side * r, 0}, force, none, none};
-    }
+    add_couples(coupling, r, 1 / (2 * r), row);
 }
 
 static struct at_line at_line_of(const struct coupling *coupling, const struct coupling_state *state)
@@ -145,6 +182,7 @@ static void side_start(const struct view *view, const struct coupling *coupling,
 
 const struct constraint_form constraint_forms[constraint_kinds] = {
     [constraint_pin] = {.rows = pin},
+    [constraint_weld] = {.rows = weld, .start = weld_start},
     [constraint_rod] = {.rows = rod, .start = zero_start},
     [constraint_gear] = {.rows = gear, .start = zero_start},
     [constraint_rack] = {.rows = rack, .start = side_start},
@@ -283,8 +321,8 @@ bool couplings_go_on(const struct tree *tree)
 {
     for (int i = 0; i < tree->coupling_count; i++) {
         enum constraint_kind kind = tree->couplings[i].kind;
-        if (kind != constraint_pin && kind != constraint_rod && kind != constraint_gear &&
-            kind != constraint_ratio)
+        if (kind != constraint_pin && kind != constraint_weld && kind != constraint_rod &&
+            kind != constraint_gear && kind != constraint_ratio)
             return false;
     }
     return true;
