@@ -18,7 +18,7 @@ bool port_turns(const struct port *port)
 
 /* ---- kinds */
 
-static void pin_along(const struct view *view, const struct coupling *coupling, struct row *rows)
+void pin_along(const struct view *view, const struct coupling *coupling, struct row *rows)
 {
     struct jet_vec A = point_of(view, &coupling->end[0]), B = point_of(view, &coupling->end[1]),
                    d = jet_vec_sub(A, B);
@@ -65,8 +65,7 @@ static void pin(const struct view *view, const struct coupling *coupling, const 
     }
 }
 
-/* Add a couple of moment r on end 0 and its opposite on end 1, each as two forces at the ends of a diameter. */
-static void add_couples(const struct coupling *coupling, double r, double force, struct row *row)
+void add_couples(const struct coupling *coupling, double r, double force, struct row *row)
 {
     const struct vec none = {0, 0};
     for (int i = 0; i < 4; i++) {
@@ -74,38 +73,6 @@ static void add_couples(const struct coupling *coupling, double r, double force,
         const struct vec f = {0, (k == 0 ? side : -side) * force};
         row->ports[row->port_count++] = (struct port){coupling->end[k].link, k, {side * r, 0}, f, none, none};
     }
-}
-
-/* End 1 of a weld: where end 0 was at the begin. */
-static struct coupling_end welded_end(const struct coupling *coupling, const struct coupling_state *state)
-{
-    struct coupling_end end = coupling->end[1];
-    end.point = (struct vec){state->laid[0], state->laid[1]};
-    return end;
-}
-
-static void weld(const struct view *view, const struct coupling *coupling, const struct coupling_state *state,
-                 struct row *rows)
-{
-    struct coupling as_pin = *coupling;
-    const double r = coupling->end[0].radius;
-    as_pin.end[1] = welded_end(coupling, state);
-    pin_along(view, &as_pin, rows);
-    if (!coupling_has_couple(coupling)) return;
-    struct jet turned = jet_sub(angle_of(view, coupling->end[0].link), angle_of(view, coupling->end[1].link));
-    start_row(&rows[2], jet_sub(jet_scale(r, turned), jet_constant(state->zero)));
-    add_couples(coupling, r, 0.5, &rows[2]);
-}
-
-static void weld_start(const struct view *view, const struct coupling *coupling, struct coupling_state *state,
-                       struct row *rows)
-{
-    const struct tree_state *base = &view->work->links[coupling->end[1].link];
-    const struct vec apart = vec_sub(jet_value(point_of(view, &coupling->end[0])), base->p);
-    state->laid[0] = vec_dot(base->turn, apart);
-    state->laid[1] = vec_cross(base->turn, apart);
-    weld(view, coupling, state, rows);
-    if (coupling_has_couple(coupling)) state->zero = rows[2].g.x;
 }
 
 static void rod(const struct view *view, const struct coupling *coupling, const struct coupling_state *state,
@@ -182,7 +149,7 @@ static void side_start(const struct view *view, const struct coupling *coupling,
 
 const struct constraint_form constraint_forms[constraint_kinds] = {
     [constraint_pin] = {.rows = pin},
-    [constraint_weld] = {.rows = weld, .start = weld_start},
+    [constraint_weld] = {.rows = weld_rows, .start = weld_start},
     [constraint_rod] = {.rows = rod, .start = zero_start},
     [constraint_gear] = {.rows = gear, .start = zero_start},
     [constraint_rack] = {.rows = rack, .start = side_start},
