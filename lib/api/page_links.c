@@ -74,7 +74,7 @@ static void write_end(struct text *text, const struct fbd_model *model, const st
     json_comma(text, (size_t)k);
     text_printf(text, "{\"body\":%d,", coupling->end[k].body);
     json_vector_member(text, "point", end_point(model, source, coupling->place + k));
-    json_number_member(text, "radius", coupling->kind == constraint_ratio ? 0 : coupling->end[k].radius);
+    json_number_member(text, "radius", coupling_has_circles(coupling) ? coupling->end[k].radius : 0);
     text_printf(text, "\"side\":%d,\"wound\":%d}", side, wound || round);
 }
 

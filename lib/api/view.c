@@ -207,7 +207,7 @@ static fbd_coupling_end end_of(const struct fbd_state *state, const struct coupl
     const struct vec point = at_G ? state->model->bodies[body].inertia.G : source->where;
     fbd_coupling_end seen = {.body = body,
                              .point = {point.x, point.y},
-                             .radius = coupling->kind == constraint_ratio ? 0 : coupling->end[end].radius,
+                             .radius = coupling_has_circles(coupling) ? coupling->end[end].radius : 0,
                              .force = body == ground_body ? NULL : coupling->end[end].name[0]};
     set_places(&seen, state->tree, coupling, end);
     return seen;

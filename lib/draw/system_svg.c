@@ -310,6 +310,24 @@ static void draw_links(struct figure *figure, const fbd_coupling *coupling, size
     }
 }
 
+/* A cross; at a wall beyond it, seen from the body, if it is one to the ground. */
+static void draw_weld(struct figure *figure, size_t index)
+{
+    const double half = 1.1;
+    const fbd_coupling_end ends[] = {fbd_view_coupling_end(figure->view, index, 0),
+                                     fbd_view_coupling_end(figure->view, index, 1)};
+    const int body = ends[0].body < 0 ? ends[1].body : ends[0].body;
+    const struct vec at = on_paper(figure, ends[0].body, ends[0].point),
+                     arms[] = {{half, half}, {half, -half}};
+    if (ends[0].body < 0 || ends[1].body < 0) {
+        const struct vec G = panel_point(figure->pen, place(figure, body, figure->panels[body].G));
+        const double far = vec_norm(vec_sub(at, G));
+        wall(figure->pen, at, far > half ? vec_scale(1 / far, vec_sub(at, G)) : (struct vec){0, 1});
+    }
+    for (int i = 0; i < 2; i++)
+        panel_line(figure->pen, "thread", vec_sub(at, arms[i]), vec_add(at, arms[i]), 4);
+}
+
 static void draw_coupling(struct figure *figure, size_t index)
 {
     const fbd_coupling coupling = fbd_view_coupling(figure->view, index);
@@ -322,7 +340,8 @@ static void draw_coupling(struct figure *figure, size_t index)
         const struct vec at = on_paper(figure, end.body, end.point);
         if (fbd_view_coupling_end(figure->view, index, 1).body < 0) panel_bearing(figure->pen, at, 1);
         svg_circle(&figure->pen->under, "hole", at, 1.1);
-    }
+    } else if (strcmp(coupling.kind, "weld") == 0)
+        draw_weld(figure, index);
 }
 
 /* ---- applied forces */

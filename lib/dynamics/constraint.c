@@ -18,7 +18,7 @@ bool port_turns(const struct port *port)
 
 /* ---- kinds */
 
-static void pin_along(const struct view *view, const struct coupling *coupling, struct row *rows)
+void pin_along(const struct view *view, const struct coupling *coupling, struct row *rows)
 {
     struct jet_vec A = point_of(view, &coupling->end[0]), B = point_of(view, &coupling->end[1]),
                    d = jet_vec_sub(A, B);
@@ -65,6 +65,16 @@ static void pin(const struct view *view, const struct coupling *coupling, const 
     }
 }
 
+void add_couples(const struct coupling *coupling, double r, double force, struct row *row)
+{
+    const struct vec none = {0, 0};
+    for (int i = 0; i < 4; i++) {
+        const int k = i / 2, side = i % 2 == 0 ? 1 : -1;
+        const struct vec f = {0, (k == 0 ? side : -side) * force};
+        row->ports[row->port_count++] = (struct port){coupling->end[k].link, k, {side * r, 0}, f, none, none};
+    }
+}
+
 static void rod(const struct view *view, const struct coupling *coupling, const struct coupling_state *state,
                 struct row *row)
 {
@@ -101,15 +111,9 @@ static void resistance(const struct view *view, const struct coupling *coupling,
                        const struct coupling_state *state, struct row *row)
 {
     const double r = coupling->end[0].radius;
-    const struct vec none = {0, 0};
     struct jet g = jet_sub(angle_of(view, coupling->end[0].link), angle_of(view, coupling->end[1].link));
     start_row(row, jet_sub(g, jet_constant(state->zero)));
-    for (int i = 0; i < 4; i++) {
-        const int k = i / 2, side = i % 2 == 0 ? 1 : -1;
-        const struct vec force = {0, (k == 0 ? side : -side) / (2 * r)};
-        row->ports[row->port_count++] =
-            (struct port){coupling->end[k].link, k, {side * r, 0}, force, none, none};
-    }
+    add_couples(coupling, r, 1 / (2 * r), row);
 }
 
 static struct at_line at_line_of(const struct coupling *coupling, const struct coupling_state *state)
@@ -145,6 +149,7 @@ static void side_start(const struct view *view, const struct coupling *coupling,
 
 const struct constraint_form constraint_forms[constraint_kinds] = {
     [constraint_pin] = {.rows = pin},
+    [constraint_weld] = {.rows = weld_rows, .start = weld_start},
     [constraint_rod] = {.rows = rod, .start = zero_start},
     [constraint_gear] = {.rows = gear, .start = zero_start},
     [constraint_rack] = {.rows = rack, .start = side_start},
@@ -283,8 +288,8 @@ bool couplings_go_on(const struct tree *tree)
 {
     for (int i = 0; i < tree->coupling_count; i++) {
         enum constraint_kind kind = tree->couplings[i].kind;
-        if (kind != constraint_pin && kind != constraint_rod && kind != constraint_gear &&
-            kind != constraint_ratio)
+        if (kind != constraint_pin && kind != constraint_weld && kind != constraint_rod &&
+            kind != constraint_gear && kind != constraint_ratio)
             return false;
     }
     return true;

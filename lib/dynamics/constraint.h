@@ -4,6 +4,7 @@
  * forces of its multiplier on the links.
  *
  *   pin    g = (p_A - p_B) . x, then . y
+ *   weld   the same with the place in B where A was at the start, and g = r (theta_A - theta_B) - g_0
  *   rod    g = |p_A - p_B| - L
  *   gear   g = r_1 (theta_1 - phi) + r_2 (theta_2 - phi), phi the angle of the line of centres; r_2 < 0 for a
  *          ring round the first
@@ -66,7 +67,7 @@ struct coupling_state {
     int side[2];
     double psi[2];    /* of a rope: the directions of its first and last piece at the start */
     double turned[2]; /* and their rotation since, by constraints_follow */
-    double laid[2];   /* at the start: wound length on the end discs; of a belt: its rows */
+    double laid[2];   /* at the start: wound length on the end discs; belt: its rows; weld: end 0 in link 1 */
     double foot;      /* slot: the arc length of its point, by constraints_follow */
     int feature;      /* contact: its feature; no_feature while it is open */
     bool gone;        /* it has ended, or not begun: its rows are empty */

@@ -68,7 +68,8 @@ static struct rated_force force_of_couplings(const struct view *view, const stru
     struct rated_force sum = {{0, 0}, {0, 0}};
     for (int i = reaction->couplings.first; i < range_end(reaction->couplings); i++) {
         const struct coupling *coupling = &view->model->tree->couplings[i];
-        for (int k = 0; acts(view, i) && k < coupling->row_count; k++) {
+        const int count = coupling->row_count - coupling_has_couple(coupling);
+        for (int k = 0; acts(view, i) && k < count; k++) {
             const struct rated_force one = row_force(view, coupling, k, reaction->body);
             sum.f = vec_add(sum.f, one.f);
             sum.rate = vec_add(sum.rate, one.rate);
@@ -106,14 +107,24 @@ static struct rated size_of_couplings(const struct view *view, const struct mode
     return sum;
 }
 
-/* The size of the generalized force on the first coordinate of a ratio. */
-static struct rated size_of_ratio(const struct view *view, int index)
+/* The size of the multiplier of row k times a factor. */
+static struct rated size_of_row(const struct view *view, int index, int k, double factor)
+{
+    if (!acts(view, index)) return (struct rated){0, 0};
+    const struct rated lambda = multiplier(view, &view->model->tree->couplings[index], k);
+    const double sign = factor * lambda.x < 0 ? -factor : factor;
+    return (struct rated){sign * lambda.x, sign * lambda.rate};
+}
+
+/* The size of the generalized force on the first coordinate of a ratio, or of the couple of a weld, whose row has
+ * the angle times a length; the weld of a particle has none. */
+static struct rated size_of_generalized(const struct view *view, int index)
 {
     const struct coupling *coupling = &view->model->tree->couplings[index];
-    if (!acts(view, index)) return (struct rated){0, 0};
-    const struct rated lambda = multiplier(view, coupling, 0);
-    const double factor = coupling->source->terms[0].factor, sign = factor * lambda.x < 0 ? -factor : factor;
-    return (struct rated){sign * lambda.x, sign * lambda.rate};
+    if (coupling->kind == constraint_ratio)
+        return size_of_row(view, index, 0, coupling->source->terms[0].factor);
+    if (!coupling_has_couple(coupling)) return (struct rated){0, 0};
+    return size_of_row(view, index, 2, coupling->end[0].radius);
 }
 
 /* ---- springs, dampers and actuators */
@@ -207,8 +218,9 @@ static struct rated value_of(const struct view *view, const struct model_absolut
     const bool component = reaction->part <= reaction_force;
     struct rated_force force;
     if (reaction->couplings.count > 0) {
-        if (view->model->tree->couplings[reaction->couplings.first].kind == constraint_ratio)
-            return size_of_ratio(view, reaction->couplings.first);
+        const int first = reaction->couplings.first;
+        if (view->model->tree->couplings[first].kind == constraint_ratio || reaction->part == reaction_moment)
+            return size_of_generalized(view, first);
         if (!component) return size_of_couplings(view, reaction);
         force = force_of_couplings(view, reaction);
     } else if (reaction->load >= 0) {

@@ -132,6 +132,7 @@ static size_t fill_end(const struct coupling *coupling, int k, const struct inst
     arrows[1] = row_arrow(at, &rows[1], k, coupling->end[k].name[1]);
     if (!coupling->law->end_names[1]) {
         arrows[0].force = vec_add(arrows[0].force, arrows[1].force);
+        if (coupling_has_couple(coupling)) arrows[0].couple = row_arrow(at, &rows[2], k, NULL).couple;
         return 1;
     }
     arrows[1].load = coupling->load;

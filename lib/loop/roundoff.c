@@ -46,7 +46,8 @@ static double turned_by_places(const struct fbd_model *model, int index, const s
                 fmax(length, turning_length(&model->bodies[model->tree->links[port->link].body], port->arm));
     }
     const bool is_rounding = length <= round_off(64, away + coupling_extent(coupling));
-    return coupling->kind == constraint_pin || is_rounding ? 0 : share_of_difference * away / length;
+    const bool fixed = coupling->kind == constraint_pin || coupling->kind == constraint_weld;
+    return fixed || is_rounding ? 0 : share_of_difference * away / length;
 }
 
 /* The sum of the rotations of the links from the ground to each: an angle in the world is that sum, with its

@@ -51,6 +51,9 @@ void couplings_check(struct builder *builder);
 /* Reject ratios that follow from others, or leave a coordinate no motion (ratio_check.c). False when memory is out. */
 bool ratios_check(struct builder *builder);
 
+/* Reject welds of particles, but at their first end, and welds between bodies that are one already (weld_check.c). */
+void welds_check(struct builder *builder);
+
 /* Reject contacts between points that do not move on one line (contact_points.c). */
 void contacts_check(struct builder *builder);
 

@@ -35,6 +35,30 @@ double coupling_extent(const struct coupling *coupling)
     return extent;
 }
 
+/* The length by which the angle of a weld is multiplied: the larger radius of gyration of its bodies, so that its row
+ * is of the size of the others. A particle has no angle: 0. */
+static double weld_radius(const struct fbd_model *model, const struct constraint *source)
+{
+    double radius = 0;
+    for (int k = 0; k < 2; k++) {
+        if (source->body[k] == ground_body) continue;
+        const struct model_body *body = &model->bodies[source->body[k]];
+        if (body->kind == motion_particle) return 0;
+        if (body->inertia.mass > 0) radius = fmax(radius, sqrt(body->inertia.I_G / body->inertia.mass));
+    }
+    return radius > 0 ? radius : 1;
+}
+
+/* A weld of a particle is a pin. */
+static void set_weld(const struct fbd_model *model, struct coupling *coupling)
+{
+    if (coupling->kind != constraint_weld) return;
+    coupling->end[0].radius = weld_radius(model, coupling->source);
+    if (coupling->end[0].radius > 0) return;
+    coupling->row_count--;
+    model->tree->row_count--;
+}
+
 static struct coupling *add_coupling(struct fbd_model *model, int index, int from, int to)
 {
     struct tree *tree = model->tree;
@@ -59,6 +83,7 @@ static struct coupling *add_coupling(struct fbd_model *model, int index, int fro
                                   .meeting = -1};
     tree->row_count += coupling->row_count;
     for (int k = from; k <= to; k++) coupling->end[coupling->end_count++] = coupling_end_of(model, index, k);
+    set_weld(model, coupling);
     add_roots(tree, coupling);
     return coupling;
 }

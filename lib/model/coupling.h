@@ -2,9 +2,9 @@
  *
  * Couplings: the constraints of a scene as equations g(q) = 0 between links.
  *
- * A coupling has one or two rows. A pin has its two components; a rope has a coupling for each piece between
- * its fixed points (its ends and the pulleys that move with it); a rolling body has one row that keeps it on
- * its line and one against slip. The force of a row is its multiplier times the gradient of g.
+ * A coupling has one to three rows. A pin has its two components, a weld those and an angle; a rope has a coupling
+ * for each piece between its fixed points (its ends and the pulleys that move with it); a rolling body has one row
+ * that keeps it on its line and one against slip. The force of a row is its multiplier times the gradient of g.
  */
 #ifndef FBD_MODEL_COUPLING_H
 #define FBD_MODEL_COUPLING_H
@@ -27,7 +27,7 @@ struct coupling {
     int constraint;                  /* index into scene.constraints, */
     const struct constraint *source; /* that entry */
     const char *name;
-    const char *row_name[2]; /* "knuckle in x", "tread.normal" */
+    const char *row_name[most_coupling_rows]; /* "knuckle in x", "tread.normal" */
     int first_row, row_count;
     int place; /* rope: index of the end where the piece starts */
     int end_count;
@@ -96,6 +96,18 @@ static inline bool coupling_takes_impulses(const struct coupling *coupling)
 {
     return coupling->surface >= 0 && coupling->meeting < 0 && coupling->kind != constraint_capstan &&
            coupling->kind != constraint_resistance;
+}
+
+/* True if the radii of its ends are those of circles; of ratios and welds they are arms of couples. */
+static inline bool coupling_has_circles(const struct coupling *coupling)
+{
+    return coupling->kind != constraint_ratio && coupling->kind != constraint_weld;
+}
+
+/* True if its force is a force with a couple, that of its third row. */
+static inline bool coupling_has_couple(const struct coupling *coupling)
+{
+    return coupling->kind == constraint_weld && coupling->row_count == 3;
 }
 
 /* A guide is a two-sided slot with friction. */

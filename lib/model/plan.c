@@ -204,6 +204,7 @@ bool plan_build(struct builder *builder)
     add_other_loads(builder, joined, (int)model->body_count);
     pack(builder);
     contacts_check(builder);
+    welds_check(builder);
     if (!ratios_check(builder) || !tree_finish(model) || !scalar_equations_collect(builder)) return false;
     find_constant_slots(model);
     return true;

@@ -139,12 +139,15 @@ static void add(const struct naming *naming, size_t i, enum hand_force_part part
         .name = {naming->body, name, letter, dim}, .arrow = i, .part = part, .sign = sign, .symbol = symbol};
 }
 
-/* True if its arrow may have a couple beside the force. A joint that keeps the body from turning has; the
+/* True if its arrow may have a couple beside the force. A weld and a joint that keeps the body from turning have; the
  * couple of a slide on the ground is not computed. */
 static bool has_couple(const struct naming *naming, size_t i)
 {
     const int joint = naming->symbols[i].joint;
+    struct coupling_place place;
     if (naming->symbols[i].moment) return true;
+    if (coupling_of_force(naming->model, naming->body, naming->arrows[i].name, &place))
+        return coupling_has_couple(&naming->model->tree->couplings[place.coupling]);
     return joint >= 0 && !naming->model->bodies[joint].joint->has_axis && !naming->model->bodies[joint].alone;
 }
 

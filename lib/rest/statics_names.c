@@ -78,11 +78,12 @@ static void name_coupling(struct fbd_statics *statics, const struct rest_system 
     int row = system->rows[j];
     const struct coupling *coupling = &tree->couplings[tree->coupling_of_row[row]];
     bool one = varies(system, rest_entry_of_row(system, j));
-    if (coupling->kind != constraint_pin) {
+    const int place = row - coupling->first_row;
+    if ((coupling->kind != constraint_pin && coupling->kind != constraint_weld) || place == 2) {
         if (one) add_name(statics, "", coupling_force_name(tree, row), "");
         return;
     }
-    if (row > coupling->first_row) return; /* named with the first row */
+    if (place > 0) return; /* named with the first row */
     bool other = varies(system, rest_entry_of_row(system, j + 1));
     if (one && other) add_name(statics, "", coupling->name, "");
     if (one != other) add_name(statics, "", coupling_row_name(tree, one ? row : row + 1), "");

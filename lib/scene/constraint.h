@@ -32,6 +32,7 @@ struct coupling_keys {
 enum constraint_kind {
     /* in the order of --explain */
     constraint_pin,   /* two points coincide */
+    constraint_weld,  /* a body stays as it is relative to another one */
     constraint_rod,   /* constant distance of two points */
     constraint_gear,  /* two circles roll on each other without slip; radius below zero: internal teeth */
     constraint_rack,  /* a circle rolls on a line of a body without slip */
@@ -65,7 +66,7 @@ struct contact_law {
     double limit;
 };
 
-enum { most_constraint_ends = 8 };
+enum { most_constraint_ends = 8, most_coupling_rows = 3 };
 
 /* An end of a ratio: the body that has a coordinate, or the one that it moves on, which has the opposite force. */
 struct ratio_term {
@@ -121,7 +122,7 @@ struct constraint_law {
     int rows; /* a given `tension` replaces the last one */
     struct {
         const char *before, *behind; /* text before and behind its name; both NULL: the name alone */
-    } row_names[2];
+    } row_names[most_coupling_rows];
     const char *end_names
         [2]; /* suffixes of its name for its two forces at an end; both NULL: one force, with its name */
 

@@ -87,6 +87,10 @@ static const struct law actuator_law = {.effect = "actuator",
 static const struct field pin_fields[] = {BETWEEN_ROW};
 static const struct group pin_group = BEGINNING_GROUP("a pin", pin_fields, "holds two points together");
 
+static const struct group weld_group =
+    BEGINNING_GROUP("a weld", pin_fields,
+                    "a body stays as it is relative to another one, in place and angle");
+
 static const struct field rod_fields[] = {
     BETWEEN_ROW,
     FIELD_NUMBER(COUPLING(length), "length", a_length, positive | stored,
@@ -235,6 +239,7 @@ static const struct kind kinds[] = {
     {"damper", load_damper, &damper_group, ~0u, NULL, NULL},
     {"actuator", load_actuator, &actuator_group, ~0u, NULL, &actuator_law},
     {"pin", coupling_constraint + constraint_pin, &pin_group, ~0u, NULL, NULL},
+    {"weld", coupling_constraint + constraint_weld, &weld_group, ~0u, NULL, NULL},
     {"rod", coupling_constraint + constraint_rod, &rod_group, ~0u, NULL, NULL},
     {"rope", coupling_constraint + constraint_rope, &rope_group, ~0u, NULL, NULL},
     {"gear", coupling_constraint + constraint_gear, &gear_group, ~0u, NULL, NULL},
@@ -257,6 +262,11 @@ const struct constraint_law constraint_laws[constraint_kinds] = {
         .words = "pin: two points are one",
         .not_as_c = "a pin closes a loop, whose forces are found together with the accelerations",
         .rows = 2, .row_names = {{"", " in x"}, {"", " in y"}}},
+    [constraint_weld] = {
+        .read = points_read, .drawing = "weld", .letters = {"R", "R"},
+        .words = "weld: a body stays as it is relative to another one",
+        .not_as_c = "a weld closes a loop, whose forces are found together with the accelerations",
+        .rows = 3, .row_names = {{"", " in x"}, {"", " in y"}, {"", " (couple)"}}},
     [constraint_rod] = {
         .read = points_read, .drawing = "rod", .letters = {"S"},
         .words = "rod: two points keep their distance",

@@ -38,6 +38,7 @@ static bool has_part(const struct constraint *constraint, enum reaction_part par
     case constraint_groove:
     case constraint_contact: return part != reaction_tension && part != reaction_moment;
     case constraint_ratio: return part == (constraint->radius[0] > 0 ? reaction_moment : reaction_force);
+    case constraint_weld: return part <= reaction_force || part == reaction_moment;
     default: return part <= reaction_force;
     }
 }

@@ -101,7 +101,7 @@ enum reaction_part {
     reaction_tension, /* of a rope, rod, spring or damper: positive when it pulls; the largest one of a rope's pieces */
     reaction_normal,   /* of a contact the sum over its points */
     reaction_friction, /* to the left of an observer who stands on the surface */
-    reaction_moment,   /* of a ratio whose first coordinate is an angle */
+    reaction_moment,   /* magnitude, of a weld and of a ratio whose first coordinate is an angle */
 };
 
 struct body {

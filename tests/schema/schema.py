@@ -38,6 +38,7 @@ BEYOND = {
     "ratio_many.yaml": "on which bodies its bodies move",
     "ratio_redundant.yaml": "several ratios together",
     "ratio_without_motion.yaml": "several ratios together",
+    "weld_ends.yaml": "how the bodies move, and several welds together",
     "actuator_turns_nothing.yaml": "how the bodies move",
     "surface_speed_of_a_motion.yaml": "a name in an expression",
     "surface_speed_that_jumps.yaml": "a function in an expression",

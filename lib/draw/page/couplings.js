@@ -1,6 +1,6 @@
 "use strict";
 
-// Couplings: pins, massless rods, ropes over pulleys, gears, racks, lines with rolling circles; and bodies without a
+// Couplings: pins, welds, massless rods, ropes over pulleys, gears, racks, lines with rolling circles; and bodies without a
 // shape in the file, drawn by the points where joints and couplings act.
 
 function couplingEnd(end, frameOf) {
@@ -156,6 +156,7 @@ function drawStillTies() {
       if (end.wound) drawDrum(x, y, end.radius);
       else if (coupling.kind === "rope" && last) hatch([x - 16, y], [x + 16, y], 0, -1);
       if (coupling.kind === "rope" && !end.wound) dot(x, y, 3.5, tone.soft);
+      else if (coupling.kind === "weld") hatch([x - 16, y], [x + 16, y], 0, 1);
       else if (!end.wound) drawBearing(x, y, 1);
     });
   }
@@ -324,6 +325,16 @@ function drawPin([x, y]) {
   strokeWith(tone.edge, 1.4);
 }
 
+// The cross of a weld.
+function drawWeld([x, y]) {
+  pen.beginPath();
+  for (const side of [-1, 1]) {
+    pen.moveTo(x - 4, y - 4 * side);
+    pen.lineTo(x + 4, y + 4 * side);
+  }
+  strokeWith(tone.edge, 2);
+}
+
 function drawTiesOver(frames, t, row) {
   run.couplings.forEach((coupling, i) => {
     const places = () => coupling.ends.map((end) => toScreen(couplingEnd(end, (b) => frames[b])));
@@ -331,6 +342,7 @@ function drawTiesOver(frames, t, row) {
     if (coupling.kind === "gear") drawGear(coupling, frames);
     if (coupling.kind === "belt") drawBelt(coupling, frames);
     if (coupling.kind === "pin") drawPin(places()[0]);
+    if (coupling.kind === "weld") drawWeld(places()[0]);
     if (coupling.kind === "slot") drawSlot(coupling, frames);
     if (coupling.kind === "rod") {
       path(places());
