@@ -71,9 +71,10 @@ static bool plane_slips(const struct tree *tree, const struct instant *at, int i
            !at->tree->couplings[index].gone;
 }
 
-double plane_speed(const struct fbd_model *model, const struct tree_work *work, int index)
+struct plane_speed plane_speed(const struct fbd_model *model, const struct tree_work *work, int index)
 {
-    return vec_norm(slip_now(&model->tree->couplings[index], work->links).u);
+    const struct slip_of_point now = slip_now(&model->tree->couplings[index], work->links);
+    return (struct plane_speed){vec_norm(now.u), now.size};
 }
 
 void plane_aim(const struct fbd_model *model, struct tree_work *work, int index)

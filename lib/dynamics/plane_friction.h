@@ -57,8 +57,11 @@ void planes_apply_variations(const struct fbd_model *model, const struct instant
 void planes_take_variations(const struct fbd_model *model, const struct instant *at,
                             const struct direction *along);
 
-/* The relative speed at the positions and velocities of the links. */
-double plane_speed(const struct fbd_model *model, const struct tree_work *work, int index);
+/* The relative speed at the positions and velocities of the links, and the speeds of which it is the difference. */
+struct plane_speed {
+    double slip, size;
+};
+struct plane_speed plane_speed(const struct fbd_model *model, const struct tree_work *work, int index);
 
 /* Direct e along that velocity. */
 void plane_aim(const struct fbd_model *model, struct tree_work *work, int index);
@@ -66,6 +69,9 @@ void plane_aim(const struct fbd_model *model, struct tree_work *work, int index)
 /* Decide all of them at an evaluated state; true when the modes stay as they are. Sets state->holds when memory is
  * out. */
 bool planes_settle(struct fbd_state *state, const struct decided *decided);
+
+/* After an impact, which has no impulse of it: let a point slip that stuck and has got a velocity. */
+void plane_unstick(struct fbd_state *state, int pair);
 
 /* Direct all of them along the velocities of a state that is not settled. */
 void planes_aim(struct fbd_state *state);

@@ -35,18 +35,20 @@ static bool moves(const struct fbd_state *state, const struct decided *decided, 
     const struct instant at = state_instant(state);
     if (friction_is_never(mode_of(state, pair))) return true;
     if (decided && (state->slip[pair] == stick || state->slip_rests[pair])) return false;
-    return plane_speed(state->model, state->tree, index) > coupling_slip_rounding(state->model, &at, index);
+    return plane_speed(state->model, state->tree, index).slip >
+           coupling_slip_rounding(state->model, &at, index);
 }
 
 /* Let it slip in the direction of its velocity; true when its force stays as it is. */
 static bool follow(struct fbd_state *state, int pair)
 {
+    const double rounding = 1e-12;
     const int index = mode_of(state, pair)->coupling;
     const struct vec before = state->tree->couplings[index].e;
     const bool same = state->slip[pair] == slip_plus;
     state->slip[pair] = slip_plus;
     plane_aim(state->model, state->tree, index);
-    return same && vec_dot(before, state->tree->couplings[index].e) > 0;
+    return same && vec_norm(vec_sub(before, state->tree->couplings[index].e)) <= rounding;
 }
 
 static bool make_room(struct at_rest *rest, struct arena *arena)
@@ -264,4 +266,14 @@ void planes_aim(struct fbd_state *state)
     for (int i = 0; i < state->model->tree->coupling_count; i++)
         if (state->model->tree->couplings[i].kind == constraint_plane)
             plane_aim(state->model, state->tree, i);
+}
+
+void plane_unstick(struct fbd_state *state, int pair)
+{
+    const int index = mode_of(state, pair)->coupling;
+    const struct instant at = state_instant(state);
+    const double slip = plane_speed(state->model, state->tree, index).slip;
+    if (state->slip[pair] != stick || slip <= coupling_slip_rounding(state->model, &at, index)) return;
+    plane_aim(state->model, state->tree, index);
+    state->slip[pair] = slip_plus;
 }

@@ -53,15 +53,16 @@ static void drop_rounding(struct run *run)
 }
 
 /* Has the velocity on a plane turned by a right angle from the direction in which it is watched? That is renewed
- * then. A remaining velocity within the error of the run is a stop. */
+ * then. A remaining velocity within the error of the velocities of which it is the difference is a stop. */
 static bool only_turns(struct run *run, int pair)
 {
     const double tolerances = 100;
     const int index = run->model->plan.modes[pair].coupling;
     const struct instant at = state_instant(run->state);
     tree_move(run->model, &at);
-    const double speed = plane_speed(run->model, run->state->tree, index);
-    if (speed <= tolerances * run->options.tolerance * run->watchers.fast[pair]) return false;
+    const struct plane_speed speed = plane_speed(run->model, run->state->tree, index);
+    const double size = fmax(speed.size, run->watchers.fast[pair]);
+    if (speed.slip <= tolerances * run->options.tolerance * size) return false;
     plane_aim(run->model, run->state->tree, index);
     return true;
 }

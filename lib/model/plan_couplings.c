@@ -92,7 +92,7 @@ static void plan_groove(struct builder *builder, struct coupling *coupling)
     builder->model->plan.modes[coupling->pair].two_sided = true;
 }
 
-/* A negligible speed: what a force gives the body in 1e-10 of the run. */
+/* A negligible speed, per force: that of the body after 1e-10 of the run. */
 static double soft_of(const struct fbd_model *model, int body)
 {
     const double negligible = 1e-10;

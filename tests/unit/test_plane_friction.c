@@ -10,6 +10,7 @@
  *   a coin on a turntable omega = alpha t: it slips at r sqrt(alpha^2 + omega^4) = mu_s g
  *   a puck under a pull   F t: it breaks away at F t = mu_s m g, in the direction of the pull
  *   a puck thrown up      against a force F > mu m g: it stops after v/(F/m + c) and returns with F/m - c
+ *   a puck that hits      another one at rest, of equal mass, with w: they go on with (1 - e) w/2 and (1 + e) w/2
  *   a puck on a sled      on rails along its path: they have the common velocity v m/(m + M) after v/(c (1 + m/M))
  */
 #include <setjmp.h>
@@ -155,12 +156,37 @@ static void check_sled(struct checks *checks, struct random_numbers *numbers)
     trial_close(&trial);
 }
 
+/* Discs of equal mass. Their friction has no impulse, and none acts between them along the line of centres. */
+static void check_hit(struct checks *checks, struct random_numbers *numbers)
+{
+    const double mu = random_between(numbers, 0.05, 0.4), d = random_between(numbers, 0.2, 1);
+    const double v = sqrt(2 * mu * g * d) * random_between(numbers, 1.1, 3),
+                 e = random_between(numbers, 0, 1);
+    const double hit = sqrt(v * v - 2 * mu * g * d), w = hit * (1 + e) / 2, T = 2 * v / (mu * g);
+    char text[700];
+    snprintf(text, sizeof text,
+             "fbd: 1\nplane: horizontal\nbodies:\n  a: {shape: disc, radius: 0.05, mass: 0.2, motion: "
+             "planar, initial: "
+             "{vx: %.17g}}\n  b: {shape: disc, radius: 0.05, mass: 0.2, motion: planar, initial: {x: "
+             "%.17g}}\ncouplings:\n  - plane_friction: {name: under_a, body: a, kinetic: %.17g}\n  - "
+             "plane_friction: "
+             "{name: under_b, body: b, kinetic: %.17g}\ncontacts: [{between: [a, b], restitution: "
+             "%.17g}]\nsimulate: {until: %.17g}\n",
+             v, d + 0.1, mu, mu, e, T);
+    struct trial trial = run_text(text);
+    const double rest = hit - w;
+    check_close(checks, "a.x", trial_get(&trial, "a.x"), d + rest * rest / (2 * mu * g), accuracy * d);
+    check_close(checks, "b.x", trial_get(&trial, "b.x"), d + 0.1 + w * w / (2 * mu * g), accuracy * d);
+    trial_close(&trial);
+}
+
 static void motions_have_closed_forms(void **unused)
 {
     (void)unused;
     static void (*const kinds[])(struct checks * checks,
                                  struct random_numbers * numbers) = {check_puck, check_belt,   check_coin,
-                                                                     check_pull, check_return, check_sled};
+                                                                     check_pull, check_return, check_sled,
+                                                                     check_hit};
     const int draws = draws_of(40);
     struct random_numbers numbers = {7201};
     struct checks checks = {0};
@@ -380,6 +406,11 @@ static struct trial open_system(const struct system *s, const struct motion *at,
                 b, k, b, s->bodies[b].at[k], s->bodies[b].on_table ? "table" : "ground", s->bodies[b].mu_s,
                 s->bodies[b].mu_k, s->bodies[b].m * g / s->bodies[b].points);
     snprintf(end, 1000, "simulate: {until: %.17g}\n", until);
+    {
+        FILE *f = fopen("/tmp/wt/pl/last.yaml", "w");
+        fputs(text, f);
+        fclose(f);
+    }
     return trial_parse(text);
 }
 
@@ -397,23 +428,33 @@ static void check_body(struct checks *checks, const struct trial *trial, const s
 }
 
 /* The error of the independent motion is about its change by half the step. */
+static void compare(struct checks *checks, const struct trial *trial, const struct system *s,
+                    struct motion at, int steps, double until)
+{
+    struct motion fine = at, coarse = at;
+    for (int i = 0; i < steps; i++) step(s, &fine, until / steps);
+    for (int i = 0; i < steps / 2; i++) step(s, &coarse, 2 * until / steps);
+    for (int b = 0; b < s->count; b++) check_body(checks, trial, &fine, &coarse, b, s->bodies[b].planar);
+    check_close(checks, "table", trial_get(trial, "table.omega"), fine.omega,
+                3 * fabs(fine.omega - coarse.omega) + 1e-3);
+}
+
+/* Where a point passes near zero velocity both of these motions may stick for a step: then shorter ones decide. */
 static void check_system(struct checks *checks, struct random_numbers *numbers)
 {
     const double until = 1;
-    const int steps = 4000;
+    const uint64_t seed = numbers->state;
     struct motion at;
     const struct system s = draw_system(numbers, &at);
-    struct motion fine = at, coarse = at;
     struct trial trial = open_system(&s, &at, until);
+    struct checks seen = {0};
     trial_start(&trial, NULL);
     trial_finish(&trial);
-    for (int i = 0; i < steps; i++) step(&s, &fine, until / steps);
-    for (int i = 0; i < steps / 2; i++) step(&s, &coarse, 2 * until / steps);
-    const size_t failed = checks->failed;
-    for (int b = 0; b < s.count; b++) check_body(checks, &trial, &fine, &coarse, b, s.bodies[b].planar);
-    check_close(checks, "table", trial_get(&trial, "table.omega"), fine.omega,
-                3 * fabs(fine.omega - coarse.omega) + 1e-3);
-    if (checks->failed > failed) print_message("# seed %llu\n", (unsigned long long)numbers->state);
+    compare(&seen, &trial, &s, at, 4000, until);
+    if (seen.failed > 0) {
+        print_message("# seed %llu: again with shorter steps\n", (unsigned long long)seed);
+        compare(checks, &trial, &s, at, 64000, until);
+    }
     trial_close(&trial);
 }
 
@@ -421,7 +462,7 @@ static void scenes_agree_with_time_stepping(void **unused)
 {
     (void)unused;
     const int draws = number_of("FBD_PLANES", draws_of(100));
-    struct random_numbers numbers = {(uint64_t)number_of("FBD_SEED", 7202)};
+    struct random_numbers numbers = {getenv("FBD_SEED") ? strtoull(getenv("FBD_SEED"), NULL, 10) : 7202};
     struct checks checks = {0};
     for (int i = 0; i < draws; i++) check_system(&checks, &numbers);
     checks_end(&checks);
