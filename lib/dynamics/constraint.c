@@ -3,6 +3,7 @@
 
 #include <float.h>
 
+#include "dynamics/plane_friction.h"
 #include "expr/curve.h"
 
 bool port_turns(const struct port *port)
@@ -176,6 +177,7 @@ const struct constraint_form constraint_forms[constraint_kinds] = {
                          .follow = way_follow,
                          .left = rope_room,
                          .piece = rope_end_piece},
+    [constraint_plane] = {.rows = plane_rows, .follow = plane_follow},
     [constraint_contact] = {.rows = contact_rows},
 };
 
@@ -258,8 +260,8 @@ void constraints_start(const struct fbd_model *model, const struct instant *at)
     struct view view = {model, tree, work, false, at, NULL};
     for (int i = 0; i < tree->coupling_count; i++) {
         const bool waits = tree->couplings[i].source->begins;
-        work->couplings[i] =
-            (struct coupling_state){.side = {1, 1}, .feature = no_feature, .gone = waits, .waits = waits};
+        work->couplings[i] = (struct coupling_state){
+            .side = {1, 1}, .e = {1, 0}, .feature = no_feature, .gone = waits, .waits = waits};
         if (!waits) start(&view, i);
     }
     for (int i = 0; i < tree->coupling_count; i++)
@@ -269,7 +271,7 @@ void constraints_start(const struct fbd_model *model, const struct instant *at)
 void coupling_begin(const struct fbd_model *model, const struct instant *at, int index)
 {
     struct view view = {model, model->tree, at->tree, false, at, NULL};
-    at->tree->couplings[index] = (struct coupling_state){.side = {1, 1}, .feature = no_feature};
+    at->tree->couplings[index] = (struct coupling_state){.side = {1, 1}, .e = {1, 0}, .feature = no_feature};
     start(&view, index);
     rope_start_wrap(model->tree, at->tree, index);
 }

@@ -28,6 +28,7 @@
  *          angle of the line of centres
  *   A surface that moves with the speed s(t) along the tangent: g' has -s, and g is 0; sticking is a constraint of
  *          velocities.
+ *   plane  no g: e . u and (k x e) . u are its rates, see plane_friction.h
  *   rack   g = e . (C - P) + s R (theta_C - theta_P), n = s k x e pointing to the side of the circle
  *
  * The rates are J v, the forces J^T: the ports of a row have the power lambda g'.
@@ -69,6 +70,7 @@ struct coupling_state {
     double turned[2]; /* and their rotation since, by constraints_follow */
     double laid[2];   /* at the start: wound length on the end discs; belt: its rows; weld: end 0 in link 1 */
     double foot;      /* slot: the arc length of its point, by constraints_follow */
+    struct vec e, n;  /* plane friction: direction of its first row; of its force while it slips */
     int feature;      /* contact: its feature; no_feature while it is open */
     bool gone;        /* it has ended, or not begun: its rows are empty */
     bool waits;       /* it has not begun */

@@ -16,6 +16,7 @@
 #include <string.h>
 
 #include "dynamics/friction.h"
+#include "dynamics/plane_friction.h"
 #include "dynamics/tree_unknowns.h"
 
 /* ---- the unknowns: rows of couplings, then frictions of slides, then forces along massless coordinates */
@@ -52,7 +53,8 @@ bool tree_takes_part(const struct tree *tree, const struct instant *at, int k)
     const struct coupling *coupling = &tree->couplings[tree->coupling_of_row[k]];
     if (at->tree->couplings[tree->coupling_of_row[k]].gone) return false;
     if (coupling->kind == constraint_contact) return contact_takes_part(coupling, at, k);
-    bool has_mode = coupling->kind == constraint_rope || (coupling->pair >= 0 && k == coupling->along_row);
+    bool has_mode = coupling->kind == constraint_rope || coupling->kind == constraint_plane ||
+                    (coupling->pair >= 0 && k == coupling->along_row);
     int surface = coupling->surface >= 0 ? at->slip[coupling->surface] : stick;
     bool open = surface != stick &&
                 (surface != loose || k == coupling->first_row); /* rolling without friction continues */
@@ -107,8 +109,8 @@ static double row_answer(const struct tree_work *work, const struct tree *tree, 
 static bool is_rubbing(const struct tree *tree, int index, const struct instant *at)
 {
     const struct coupling *coupling = &tree->couplings[index];
-    return coupling_rubs(coupling) && !at->tree->couplings[index].gone &&
-           slip_side(at->slip[coupling->pair]) != 0 &&
+    return coupling_rubs(coupling) && coupling->kind != constraint_plane &&
+           !at->tree->couplings[index].gone && slip_side(at->slip[coupling->pair]) != 0 &&
            (coupling->surface < 0 || at->slip[coupling->surface] == stick);
 }
 
@@ -464,6 +466,7 @@ void tree_take_multipliers(const struct fbd_model *model, const struct instant *
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
     for (int j = 0; j < tree->row_count; j++) work->rows[j].lambda = work->z[j];
+    if (tree->plane_count > 0) planes_take_multipliers(model, at);
     for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
         if (is_rubbing(tree, i, at))
@@ -478,6 +481,7 @@ void tree_apply_variations(const struct fbd_model *model, const struct instant *
     const struct tree *tree = model->tree;
     struct tree_work *work = at->tree;
     for (int j = 0; j < tree->row_count; j++) apply_ports_along(&work->rows[j], work->x);
+    if (tree->plane_count > 0) planes_apply_variations(model, at, along);
     for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
         if (!is_rubbing(tree, i, at)) continue;

@@ -30,6 +30,12 @@ double friction_coefficient(const struct fbd_model *model, int pair, const struc
     }
     double d_mu = 0, d_wrap, value = along ? formula_along(mu, at, along, &d_mu) : formula_value(mu, at);
     if (variation) *variation = d_mu;
+    if (coupling >= 0 && model->tree->couplings[coupling].kind == constraint_plane) {
+        const struct formula *normal = &model->tree->couplings[coupling].normal;
+        double d_N = 0, N = along ? formula_along(normal, at, along, &d_N) : formula_value(normal, at);
+        if (variation) *variation = d_mu * N + value * d_N;
+        return value * N;
+    }
     const struct constraint_form *form =
         coupling < 0 ? NULL : &constraint_forms[model->tree->couplings[coupling].kind];
     if (!form || !form->wrap) return value;
@@ -97,6 +103,7 @@ struct friction_values friction_at(const struct fbd_model *model, int pair, cons
     /* A coefficient that vanishes may be slightly negative by rounding. */
     values.limit = fmax(0, fmax(values.limit_static, values.limit_kinetic));
     values.force = at->slip[pair] == stick ? values.hold : -at->slip[pair] * values.limit_kinetic;
+    if (mode->kind == mode_plane) values.force = fabs(values.force); /* its size */
     return values;
 }
 

@@ -30,7 +30,7 @@ struct friction_values {
 double friction_surface_speed(const struct mode *mode, const struct instant *at, double *acceleration);
 
 /* A coefficient of friction at an instant, and its variation along a direction, with the links varied. Of a
- * capstan rope it is tanh(mu beta / 2), relative to the sum of its tensions. */
+ * capstan rope it is tanh(mu beta / 2), relative to the sum of its tensions; on a plane mu N. */
 double friction_coefficient(const struct fbd_model *model, int pair, const struct formula *mu,
                             const struct instant *at, const struct direction *along, double *variation);
 

@@ -25,6 +25,7 @@
 
 #include "dynamics/constraint.h"
 #include "dynamics/journals.h"
+#include "dynamics/plane_friction.h"
 #include "dynamics/world_refs.h"
 
 /* Give friction that begins to slip at its limit a small acceleration in the slip direction. Its relative
@@ -184,6 +185,7 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
         state->slip[pair] = next;
     }
     if (tree_joins(model->tree)) same = tree_settle_holds(state, decided, jointly) && same;
+    if (model->tree->plane_count > 0) same = planes_settle(state, decided) && same;
     return same;
 }
 

@@ -11,6 +11,7 @@
 #include "dynamics/closed_loops.h"
 #include "dynamics/friction.h"
 #include "dynamics/journals.h"
+#include "dynamics/plane_friction.h"
 #include "dynamics/tree_bare.h"
 #include "dynamics/tree_system.h"
 
@@ -177,7 +178,10 @@ void tree_coupling_slots(const struct fbd_model *model, const struct instant *at
     const struct row *rows = at->tree->rows;
     if (coupling->strands > 0) set_strands(model, at->tree, index, slots);
     if (coupling_presses(coupling)) slots[coupling->normal_slot] = -rows[coupling->first_row].lambda;
-    if (coupling_rubs(coupling))
+    if (coupling->kind == constraint_plane)
+        slots[model->plan.modes[coupling->pair].hold_slot] =
+            -hypot(rows[coupling->first_row].lambda, rows[coupling->first_row + 1].lambda);
+    else if (coupling_rubs(coupling))
         slots[model->plan.modes[coupling->pair].hold_slot] = -rows[coupling->along_row].lambda;
 }
 
@@ -354,6 +358,7 @@ static void accelerate_joined(const struct fbd_model *model, const struct instan
     if (!at->moved) tree_move_joined(model, at);
     tree_bias(tree, at, model->plan.n);
     tree_load(tree, at, &tree->joined_loads);
+    if (tree->plane_count > 0) planes_load(model, at);
     if (tree->bulk_count > 0) tree_weights(tree, at);
     set_joint_forces(model, at, slots);
     tree_factor(tree, work);
@@ -371,7 +376,7 @@ static void constrain(const struct fbd_model *model, const struct instant *at, d
         tree_complete(model, work);
     if (tree->coupling_count > 0 || tree_slips(tree, at) || tree_lacks_inertia(tree, work))
         close_system(model, at, a);
-    bool holds = false;
+    bool holds = tree->plane_count > 0 && planes_stick(tree, at);
     for (int k = 0; k < tree->joined_watched; k++) {
         const struct tree_state *s = &work->links[tree->watched[k]];
         if (!s->locked) continue;

@@ -7,6 +7,7 @@
  * each link, and the inward and outward sweeps that computed a compute da with the same inertias.
  */
 #include "dynamics/friction.h"
+#include "dynamics/plane_friction.h"
 #include "dynamics/tree_system.h"
 
 /* The variation of the accelerations of the surfaces of sticking joints. */
@@ -21,12 +22,12 @@ static void vary_held(const struct fbd_model *model, const struct instant *at, c
     }
 }
 
-/* Does friction lock a joint? */
-static bool holds(const struct tree *tree, const struct tree_work *work)
+/* Does friction lock a joint, or hold a point on a plane? */
+static bool holds(const struct tree *tree, const struct instant *at)
 {
     for (int k = 0; k < tree->joined_watched; k++)
-        if (work->links[tree->watched[k]].locked) return true;
-    return false;
+        if (at->tree->links[tree->watched[k]].locked) return true;
+    return tree->plane_count > 0 && planes_stick(tree, at);
 }
 
 /* The wrench of a joint has a varying arm about the parent's O. */
@@ -123,9 +124,16 @@ static void add_joint_forces(const struct tree *tree, struct tree_work *work, bo
     }
 }
 
+/* The variation of the size of a force with the components lambda of two rows. */
+static double size_along(const struct row *rows, const double *z)
+{
+    const double size = hypot(rows[0].lambda, rows[1].lambda);
+    return size > 0 ? (rows[0].lambda * z[0] + rows[1].lambda * z[1]) / size : hypot(z[0], z[1]);
+}
+
 /* Those of couplings. */
-static void set_coupling_slots(const struct tree *tree, const struct plan *plan, const double *z,
-                               double *slots_along)
+static void set_coupling_slots(const struct tree *tree, const struct plan *plan, const struct row *rows,
+                               const double *z, double *slots_along)
 {
     for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
@@ -136,7 +144,10 @@ static void set_coupling_slots(const struct tree *tree, const struct plan *plan,
             slots_along[coupling->slack_slot[1]] = both - half;
         }
         if (coupling_presses(coupling)) slots_along[coupling->normal_slot] = -z[coupling->first_row];
-        if (coupling_rubs(coupling))
+        if (coupling->kind == constraint_plane)
+            slots_along[plan->modes[coupling->pair].hold_slot] =
+                -size_along(&rows[coupling->first_row], &z[coupling->first_row]);
+        else if (coupling_rubs(coupling))
             slots_along[plan->modes[coupling->pair].hold_slot] = -z[coupling->along_row];
     }
 }
@@ -176,10 +187,11 @@ static void vary_answers(const struct fbd_model *model, const struct instant *at
     tree_want_massless(tree, work, a_along, work->z);
     tree_system_solve(model, at, work->z);
     tree_add_unit(tree, work, a_along);
-    if (holds(tree, work)) tree_rest(model, at, true, a_along);
+    if (holds(tree, at)) tree_rest(model, at, true, a_along);
     add_slots(model, at, false, slots_along);
     if (tree->reacts) add_joint_forces(tree, work, false);
-    set_coupling_slots(tree, &model->plan, work->z, slots_along);
+    if (tree->plane_count > 0) planes_take_variations(model, at, along);
+    set_coupling_slots(tree, &model->plan, work->rows, work->z, slots_along);
 }
 
 void tree_accelerations_along(const struct fbd_model *model, const struct instant *at,

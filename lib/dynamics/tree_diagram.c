@@ -126,7 +126,7 @@ static size_t fill_end(const struct coupling *coupling, int k, const struct inst
 {
     const struct row *rows = &at->tree->rows[coupling->first_row];
     arrows[0] = row_arrow(at, &rows[0], k, coupling->end[k].name[0]);
-    if (coupling->reels || coupling->kind == constraint_resistance)
+    if (coupling->reels || coupling->kind == constraint_resistance || coupling->kind == constraint_plane)
         arrows[0].load = coupling->load; /* other ropes do no net work */
     if (coupling->row_count == 1) return 1;
     arrows[1] = row_arrow(at, &rows[1], k, coupling->end[k].name[1]);

@@ -13,7 +13,8 @@
 static inline const struct row *hold_row(const struct fbd_state *state, const struct mode *hold)
 {
     const struct coupling *coupling = &state->model->tree->couplings[hold->coupling];
-    return &state->tree->rows[hold->kind == mode_tangent ? coupling->along_row : coupling->first_row];
+    return &state->tree->rows[hold->kind == mode_tangent || hold->kind == mode_plane ? coupling->along_row
+                                                                                     : coupling->first_row];
 }
 
 /* The force of a rope is opposite to the gradient of its row. */

@@ -34,7 +34,7 @@ bool hold_in_question(const struct fbd_state *state, const struct decided *decid
 {
     const struct mode *hold = mode_of(state, pair);
     struct instant at = state_instant(state);
-    if (hold->kind == mode_single || hold->kind == mode_drive) return false;
+    if (hold->kind == mode_single || hold->kind == mode_plane || hold->kind == mode_drive) return false;
     if (friction_is_never(hold) || mode_has_ended(state, pair)) return false;
     if (mode_is_friction(hold)) return is_on_surface(state, decided, forced, hold);
     if (forced[pair] || (decided && decided->slips[pair])) return false;

@@ -64,6 +64,14 @@ static void add_rubbing(struct watchers *watchers, const struct plan *plan, int 
         add(&watchers->moving, (struct watcher){watch_normal_turns, pair, 0, 0});
 }
 
+/* Of the size of the force. */
+static void add_plane(struct watchers *watchers, const struct plan *plan, int pair)
+{
+    if (friction_is_never(&plan->modes[pair])) return;
+    add(&watchers->moving, (struct watcher){watch_slip_stop, pair, 0, 0});
+    add(&watchers->moving, (struct watcher){watch_stick_limit, pair, 0, 0});
+}
+
 static void add_one_sided(struct watchers *watchers, const struct plan *plan, int pair)
 {
     (void)plan;
@@ -78,8 +86,9 @@ static void add_lift(struct watchers *watchers, const struct plan *plan, int pai
 
 /* Drives have no watchers. */
 static void (*const add_mode[mode_kinds])(struct watchers *watchers, const struct plan *plan, int pair) = {
-    [mode_single] = add_rubbing, [mode_joint] = add_rubbing,     [mode_tangent] = add_rubbing,
-    [mode_rope] = add_one_sided, [mode_surface] = add_one_sided, [mode_contact] = add_lift};
+    [mode_single] = add_rubbing, [mode_joint] = add_rubbing,  [mode_tangent] = add_rubbing,
+    [mode_plane] = add_plane,    [mode_rope] = add_one_sided, [mode_surface] = add_one_sided,
+    [mode_contact] = add_lift};
 
 static void add_modes(struct watchers *watchers, const struct plan *plan)
 {

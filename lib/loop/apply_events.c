@@ -11,6 +11,7 @@
 #include "dynamics/friction.h"
 #include "dynamics/modes.h"
 #include "dynamics/nonfinite.h"
+#include "dynamics/plane_friction.h"
 #include "dynamics/project.h"
 #include "dynamics/tree.h"
 #include "loop/run.h"
@@ -51,12 +52,28 @@ static void drop_rounding(struct run *run)
         if (fabs(run->state->y[i]) <= rounding * most[i]) run->state->y[i] = 0;
 }
 
+/* Has the velocity on a plane turned by a right angle from the direction in which it is watched? That is renewed
+ * then. A remaining velocity within the error of the velocities of which it is the difference is a stop. */
+static bool only_turns(struct run *run, int pair)
+{
+    const double tolerances = 100;
+    const int index = run->model->plan.modes[pair].coupling;
+    const struct instant at = state_instant(run->state);
+    tree_move(run->model, &at);
+    const struct plane_speed speed = plane_speed(run->model, run->state->tree, index);
+    const double size = fmax(speed.size, run->watchers.fast[pair]);
+    if (speed.slip <= tolerances * run->options.tolerance * size) return false;
+    plane_aim(run->model, run->state->tree, index);
+    return true;
+}
+
 /* Set the relative velocity to exactly zero, as the event implies; settling decides the modes. */
 static void stop_slipping(struct run *run, int pair)
 {
     const struct mode *mode = &run->model->plan.modes[pair];
     struct instant at = state_instant(run->state);
     double acceleration;
+    if (mode->kind == mode_plane && only_turns(run, pair)) return;
     if (mode->coupling >= 0) {
         run->state->slip[pair] = stick;
         state_project_velocity(run->state, false);
@@ -187,7 +204,8 @@ static void happen(struct run *run, const struct watcher *watcher, bool crossing
     case watch_kink: switch_cross(run, watcher); break;
     case watch_stick_limit:
         if (crossing || tree_give_shared(run->state, index, &run->decided)) break;
-        run->state->slip[index] = watcher->end == 0 ? slip_minus : slip_plus;
+        run->state->slip[index] =
+            watcher->end == 0 && mode_of(run->state, index)->kind != mode_plane ? slip_minus : slip_plus;
         run->decided.slips[index] = true;
         break;
     case watch_slip_stop: stop_slipping(run, index); break;

@@ -7,6 +7,7 @@
 
 #include "dynamics/contact.h"
 #include "dynamics/impulse.h"
+#include "dynamics/plane_friction.h"
 #include "dynamics/project.h"
 #include "dynamics/tree_system.h"
 #include "loop/contacts_points.h"
@@ -327,11 +328,11 @@ static void unstick(struct run *run, double interval)
     const double *fastest = run->recent.anchor + plan_size(&model->plan) + model->plan.n;
     for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
         const struct mode *mode = &model->plan.modes[pair];
+        if (mode->kind == mode_plane) plane_unstick(run->state, pair);
         bool row = mode->kind == mode_tangent && is_hit_indirectly(&tree_of(run)->couplings[mode->coupling]);
         if (!(row || mode_is_joint_friction(mode)) || run->state->slip[pair] != stick) continue;
         double v = slip_velocity(model, pair, &at), before = row ? 0 : fastest[mode->coordinate];
-        if (fabs(v) <= 1e-14 * before) continue;
-        if (interval > 0 && fabs(v) * interval <= nobody_sees) continue;
+        if (fabs(v) <= 1e-14 * before || (interval > 0 && fabs(v) * interval <= nobody_sees)) continue;
         run->state->slip[pair] = v > 0 ? slip_plus : slip_minus;
     }
 }

@@ -91,12 +91,9 @@ static void note_rubbing(struct run *run, const struct change *change)
 }
 
 /* By kind; a drive has no events, and those of a contact are logged by run_release_contacts. */
-static void (*const note[mode_kinds])(struct run *run,
-                                      const struct change *change) = {[mode_single] = note_rubbing,
-                                                                      [mode_joint] = note_rubbing,
-                                                                      [mode_tangent] = note_rubbing,
-                                                                      [mode_rope] = note_one_sided,
-                                                                      [mode_surface] = note_one_sided};
+static void (*const note[mode_kinds])(struct run *run, const struct change *change) = {
+    [mode_single] = note_rubbing, [mode_joint] = note_rubbing,  [mode_tangent] = note_rubbing,
+    [mode_plane] = note_rubbing,  [mode_rope] = note_one_sided, [mode_surface] = note_one_sided};
 
 /* Log the changes of each pair by its modes before and after, whichever event was the cause. */
 static void note_frictions(struct run *run, const bool *moving)

@@ -150,6 +150,16 @@ static void set_line(const struct fbd_model *model, struct coupling *coupling)
     coupling->turn += place->angle;
 }
 
+/* Friction on a plane has no row of its normal force, and rows in two directions of the plane. */
+static void set_plane(struct tree *tree)
+{
+    struct coupling *coupling = &tree->couplings[tree->coupling_count - 1];
+    if (coupling->kind != constraint_plane) return;
+    coupling->normal_row = -1;
+    coupling->along_row = coupling->first_row;
+    tree->plane_count++;
+}
+
 /* Rolling resistance acts along its only row; its normal force is that of the roll before it. */
 static void set_resistance(struct tree *tree)
 {
@@ -246,6 +256,7 @@ bool couplings_build(struct fbd_model *model)
         else
             set_line(model, add_coupling(model, (int)c, 0, source->end_count - 1));
         if (source->kind == constraint_resistance) set_resistance(tree);
+        if (source->kind == constraint_plane) set_plane(tree);
     }
     if (!meetings_level(model)) return false;
     for (int i = 0; i < tree->coupling_count; i++) {

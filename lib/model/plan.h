@@ -53,6 +53,7 @@ enum mode_kind {
     mode_single, /* dry friction along the coordinate of a body that stands alone: decided independently */
     mode_joint, /* dry friction along the coordinate of a jointed body: decided with all modes at rest there */
     mode_tangent, /* dry friction along the tangent of a coupling: rolling, contact, capstan */
+    mode_plane,   /* dry friction in any direction of a plane: see dynamics/plane_friction.h */
     mode_rope,    /* one-sided: taut or slack; see coupling.h */
     mode_surface, /* one-sided: a rolling body touches its line or has left it */
     mode_contact, /* one-sided: shapes touch or are apart; see contact.h */
@@ -77,7 +78,7 @@ struct mode {
 
 static inline bool mode_is_friction(const struct mode *mode)
 {
-    return mode->kind <= mode_tangent;
+    return mode->kind <= mode_plane;
 }
 
 /* Along a coordinate, on a slide or in a bearing. */

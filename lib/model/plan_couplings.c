@@ -92,6 +92,30 @@ static void plan_groove(struct builder *builder, struct coupling *coupling)
     builder->model->plan.modes[coupling->pair].two_sided = true;
 }
 
+/* A negligible speed, per force: that of the body after 1e-10 of the run. */
+static double soft_of(const struct fbd_model *model, int body)
+{
+    const double negligible = 1e-10;
+    const struct value *until = &model->scene->simulate.until;
+    const double time = until->expr ? expr_value(until->expr) : 1, mass = model->bodies[body].inertia.mass;
+    return mass > 0 ? negligible * time / mass : 0;
+}
+
+/* Friction on a plane: its normal force is known. */
+static void plan_plane(struct builder *builder, struct coupling *coupling)
+{
+    const struct fbd_model *model = builder->model;
+    const struct constraint *source = coupling->source;
+    const int body = source->body[0];
+    coupling->normal_slot = -1;
+    add_rubbing(builder, coupling);
+    builder->model->plan.modes[coupling->pair].kind = mode_plane;
+    coupling->normal = source->normal.expr
+                           ? builder_formula(builder, &source->normal, body, coupling->load)
+                           : formula_constant(model->bodies[body].inertia.mass * model->scene->pressing);
+    coupling->soft = soft_of(model, body);
+}
+
 /* A prescribed motion is a joint that sticks to a surface with that motion. */
 static void plan_drive(struct builder *builder, struct model_body *body)
 {
@@ -116,6 +140,7 @@ static void (*const plans[constraint_kinds])(struct builder *builder, struct cou
     [constraint_groove] = plan_groove,   [constraint_belt] = plan_belt,
     [constraint_capstan] = plan_surface, [constraint_rope] = plan_rope,
     [constraint_contact] = plan_surface, [constraint_resistance] = plan_resistance,
+    [constraint_plane] = plan_plane,
 };
 
 void plan_couplings(struct builder *builder)

@@ -164,6 +164,7 @@ struct tree {
     int joined_watched;             /* those of them that are jointed: they come first */
     int coupling_count, row_count;  /* see coupling.h */
     struct coupling *couplings;
+    int plane_count;   /* those of them that are friction on a plane */
     bool ends;         /* some of them begin or end during a run */
     bool reacts;       /* events name the forces of pivots */
     int meeting_count; /* see contact.h */

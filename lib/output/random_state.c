@@ -86,7 +86,7 @@ static void draw_modes(gsl_rng *rng, struct fbd_state *state)
 {
     const struct plan *plan = &state->model->plan;
     for (size_t k = 0; k < plan->mode_count; k++) {
-        if (plan->modes[k].kind == mode_tangent)
+        if (plan->modes[k].kind == mode_tangent || plan->modes[k].kind == mode_plane)
             state->slip[k] = between(rng, 0, 1) < 0.5 ? stick : slip_plus;
         if (plan->modes[k].kind == mode_surface) state->slip[k] = stick;
     }

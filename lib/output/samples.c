@@ -7,6 +7,7 @@
 
 #include "dynamics/kinematics.h"
 #include "dynamics/modes.h"
+#include "dynamics/plane_friction.h"
 #include "dynamics/project.h"
 #include "model/tree.h"
 
@@ -56,6 +57,7 @@ static bool draw(struct fbd_state *state, const struct fbd_state *from, gsl_rng 
     modes_drive(state);
     if (model->tree->coupling_count > 0 && !state_project(state, false)) return false;
     state->settled = true;
+    if (model->tree->plane_count > 0) planes_aim(state);
     state_evaluate(state);
     for (int i = 0; i < model->plan.n; i++)
         if (!isfinite(state->a[i])) return false;

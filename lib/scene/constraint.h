@@ -19,12 +19,13 @@ struct coupling_keys {
     const char *name;
     const struct node *between, *through, *radii, *body, *on, *center, *wound, *around;
     const struct node *x, *y, *from, *to; /* slot */
+    const struct node *at, *support;      /* plane friction */
     const struct node *since, *until;     /* conditions at which a constraint begins and ends */
     const struct node *force;             /* actuator */
     const struct node *terms;             /* ratio: the mapping itself */
     double stiffness, free_length, coefficient, length, radius, tension, along;
     bool inside, crossed, closed;
-    struct value mu_s, mu_k, restitution, reel, moment, surface_speed, resistance;
+    struct value mu_s, mu_k, restitution, reel, moment, surface_speed, resistance, normal;
     int law, side; /* enum impact_law, enum contact_side */
 };
 
@@ -44,6 +45,7 @@ enum constraint_kind {
     constraint_belt,       /* a belt round two discs */
     constraint_capstan,    /* a rope with friction on a disc */
     constraint_rope,    /* the path through all points, over discs and ground points, has constant length */
+    constraint_plane,   /* friction of a point on a horizontal plane, of the ground or of a body */
     constraint_contact, /* unilateral: two bodies, or a body and the ground */
     constraint_kinds
 };
@@ -103,6 +105,8 @@ struct constraint {
     double along;  /* roll, rack: direction of the line in the frame of end 1 */
     struct value mu_s,
         mu_k; /* roll: expr NULL for rolling without slip; contact: expr NULL for no friction; groove */
+    struct value normal;        /* plane friction: the force on the plane; expr NULL for the weight */
+    double share;               /* plane friction: of that force */
     struct value surface_speed; /* roll, contact: of the skin of end 1, over t alone; expr NULL at rest */
     struct contact_law contact; /* point_absent: the whole body */
     const struct node *since,

@@ -41,6 +41,9 @@ bool ratio_read(struct reader *reader, const struct coupling_keys *keys, struct 
 /* A point on a line or curve (read_slot.c). */
 bool slot_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
 
+/* A point of a body on a plane with friction (read_plane.c). */
+bool plane_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
+
 /* Two bodies that may touch, or a body and the ground (read_contacts.c). */
 bool contact_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint);
 

@@ -117,6 +117,7 @@ struct scene_keys {
     double version;
     const char *title, *description;
     int units;
+    int plane; /* 1: horizontal */
     double datum;
     const struct node *gravity, *parameters, *inputs, *tables, *own, *ground, *bodies, *couplings, *contacts,
         *simulate, *output, *grading, *symbols;

@@ -198,6 +198,23 @@ static const struct field slot_fields[] = {
 static const struct group slot_group =
     CONSTRAINT_GROUP("a slot", slot_fields, "a point of a body stays on a line or curve of another one");
 
+static const struct field plane_fields[] = {
+    FIELD_NODE(COUPLING(body), "body", field_scalar, required, NULL, "the body that lies on the plane"),
+    FIELD_NODE(COUPLING(on), "on", field_scalar, 0, NULL,
+               "the body whose upper face is the plane, as a turntable or a belt; default the ground"),
+    FIELD_NODE(COUPLING(at), "at", field_any, 0, NULL,
+               "the point of the body that it rests on, a name or [x, y]; default G"),
+    FIELD_VALUE(COUPLING(mu_s), "static", a_number, not_negative | stored,
+                "coefficient of static friction; default that of kinetic friction"),
+    FIELD_VALUE(COUPLING(mu_k), "kinetic", a_number, not_negative | stored,
+                "coefficient of kinetic friction; default that of static friction"),
+    FIELD_VALUE(COUPLING(normal), "normal", a_force, not_negative | stored,
+                "force of the body on the plane; default its weight m g, with `plane: horizontal`"),
+};
+static const struct group plane_group =
+    CONSTRAINT_GROUP("`plane_friction`", plane_fields,
+                     "friction of a body on a horizontal plane, seen from above");
+
 static const struct choice laws[] = {
     {"stronge", 0, "the work of restitution is e^2 times that of compression"},
     {"poisson", 1, "the impulse of restitution is e times that of compression"},
@@ -248,6 +265,7 @@ static const struct kind kinds[] = {
     {"ratio", coupling_constraint + constraint_ratio, &ratio_group, ~0u, NULL, NULL},
     {"roll", coupling_constraint + constraint_roll, &roll_group, ~0u, NULL, NULL},
     {"slot", coupling_constraint + constraint_slot, &slot_group, ~0u, NULL, NULL},
+    {"plane_friction", coupling_constraint + constraint_plane, &plane_group, ~0u, NULL, NULL},
     {"contact", coupling_constraint + constraint_contact, &contact_group, ~0u, NULL, NULL},
 };
 
@@ -333,6 +351,12 @@ const struct constraint_law constraint_laws[constraint_kinds] = {
         .not_as_c = "a rope is a constraint beside the joints, and goes slack",
         .rows = 1, .way = true, .length = true,
         .load = always_load, .load_kind = load_rope},
+    [constraint_plane] = {
+        .read = plane_read, .drawing = "plane", .letters = {"f", "f"},
+        .words = "friction on a plane: a point sticks to it or slips, with a force in any direction",
+        .not_as_c = "friction on a plane sticks as a constraint beside the joints",
+        .rows = 2, .row_names = {{"", " along"}, {"", " across"}},
+        .load = always_load, .load_kind = load_normal},
     [constraint_contact] = {
         .read = contact_read, .drawing = "contact", .letters = {"N", "f"},
         .not_as_c = "contacts and stops need impacts",

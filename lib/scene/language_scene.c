@@ -9,6 +9,11 @@ static const struct choice unit_systems[] = {
     {"US", unit_us, "slug, ft, s, lbf, rad"},
 };
 
+static const struct choice planes[] = {
+    {"vertical", 0, "y is up, and gravity acts in it"},
+    {"horizontal", 1, "seen from above: gravity presses bodies on it, and has no component in it"},
+};
+
 static const struct field scene_fields[] = {
     FIELD_NUMBER(offsetof(struct scene_keys, version), "fbd", a_number, 0,
                  "version of the model language: 1"),
@@ -20,6 +25,8 @@ static const struct field scene_fields[] = {
                  "units of bare numbers and of all output"),
     FIELD_NODE(offsetof(struct scene_keys, gravity), "gravity", field_any, 0, NULL,
                "acceleration of gravity: a magnitude, straight down, or a pair [gx, gy]"),
+    FIELD_CHOICE(offsetof(struct scene_keys, plane), "plane", planes,
+                 "the plane of motion; default `vertical`"),
     FIELD_NUMBER(offsetof(struct scene_keys, datum), "datum", a_length, 0,
                  "height y at which the potential energy of gravity is zero"),
     FIELD_ENTRIES(offsetof(struct scene_keys, parameters), "parameters", field_map, 0, each_group,

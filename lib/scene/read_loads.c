@@ -43,6 +43,12 @@ static bool check_together(struct reader *reader, int index)
         const struct load *load = &body->loads[i];
         if (load->kind == load_friction || load->kind == moment_friction) draft->has_friction = true;
         if (load->kind != load_gravity && load->kind != load_normal) continue;
+        if (load->kind == load_gravity && reader->scene->pressing > 0) {
+            diag_add(reader->errors, FBD_ERROR, "not-here", load->at,
+                     "leave it out; `plane_friction` under `couplings` takes the weight by itself",
+                     "in a horizontal plane the weight of `%s` has no component", body->name);
+            fine = false;
+        }
         if (seen[load->kind]) {
             diag_add(reader->errors, FBD_ERROR, "duplicate-load", load->at, "delete one of them",
                      "`%s` acts on `%s` twice", load->kind == load_gravity ? "gravity" : "normal",

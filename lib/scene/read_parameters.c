@@ -345,6 +345,12 @@ void parameters_note_unused(struct reader *reader)
 
 /* ---- gravity */
 
+bool scene_is_horizontal(const struct node *root)
+{
+    const struct pair *pair = node_find(root, "plane");
+    return pair && pair->value->kind == node_scalar && strcmp(pair->value->text, "horizontal") == 0;
+}
+
 /* Warn of the standard value of the other system of units. */
 static void warn_foreign_gravity(struct reader *reader, double magnitude)
 {
@@ -357,12 +363,31 @@ static void warn_foreign_gravity(struct reader *reader, double magnitude)
              us ? "ft/s^2" : "m/s^2");
 }
 
+/* True, with a note, where gravity has a direction in a plane that is horizontal. */
+static bool is_in_horizontal(struct reader *reader)
+{
+    if (!scene_is_horizontal(reader->root)) return false;
+    diag_add(reader->errors, FBD_ERROR, "conflicting-keys", reader->gravity->at, "write its magnitude",
+             "in a horizontal plane `gravity` has no direction");
+    return true;
+}
+
+/* Turn gravity out of a plane that is horizontal. */
+static void turn_gravity(struct reader *reader)
+{
+    struct scene *scene = reader->scene;
+    if (!scene_is_horizontal(reader->root)) return;
+    scene->pressing = vec_norm(scene->gravity);
+    scene->gravity = (struct vec){0, 0};
+}
+
 /* Read a magnitude, downwards, or a vector. */
 static bool read_gravity(struct reader *reader)
 {
     const struct node *node = reader->gravity;
     struct vec *gravity = &reader->scene->gravity;
-    if (node->kind == node_list) return value_vector(reader, node, "gravity", an_acceleration, gravity);
+    if (node->kind == node_list)
+        return value_vector(reader, node, "gravity", an_acceleration, gravity) && !is_in_horizontal(reader);
     double magnitude;
     if (!value_number(reader, node, "gravity", an_acceleration, 0, &magnitude)) return false;
     *gravity = (struct vec){0, -magnitude};
@@ -385,6 +410,7 @@ struct symbol gravity_symbol(struct reader *reader, struct pos at)
             reader->varies = false;
             reader->gravity_progress = in_progress;
             reader->gravity_progress = read_gravity(reader) ? done : failed;
+            turn_gravity(reader);
             reader->gravity_varies = reader->varies;
             reader->varies = outer;
             reader->names_varying = outer_names;
@@ -396,5 +422,5 @@ struct symbol gravity_symbol(struct reader *reader, struct pos at)
     if (reader->gravity_progress != done) return (struct symbol){.kind = symbol_failed};
     return (struct symbol){.kind = symbol_constant,
                            .dim = DIM_ACCELERATION,
-                           .value = vec_norm(reader->scene->gravity)};
+                           .value = vec_norm(reader->scene->gravity) + reader->scene->pressing};
 }

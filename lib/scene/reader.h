@@ -168,6 +168,9 @@ void parameters_note_unused(struct reader *reader);
 /* The symbol of parameter or input `index`, named at `at`. */
 struct symbol parameter_symbol(struct reader *reader, size_t index, struct pos at);
 
+/* Is the plane of motion horizontal? Needed before gravity is read; fields_read reports an invalid value. */
+bool scene_is_horizontal(const struct node *root);
+
 /* The magnitude of gravity, named at `at`. */
 struct symbol gravity_symbol(struct reader *reader, struct pos at);
 

@@ -32,7 +32,11 @@ static void start_gravity(struct reader *reader)
 {
     const double si = 9.81, us = 32.2;
     const struct pair *pair = node_find(reader->root, "gravity");
-    reader->scene->gravity = (struct vec){0, reader->scene->units == unit_us ? -us : -si};
+    const double g = reader->scene->units == unit_us ? us : si;
+    if (scene_is_horizontal(reader->root))
+        reader->scene->pressing = g;
+    else
+        reader->scene->gravity = (struct vec){0, -g};
     reader->gravity = pair ? pair->value : NULL;
     reader->gravity_progress = !pair ? done : pair->value->kind == node_null ? failed : untouched;
 }

@@ -232,7 +232,8 @@ struct scene {
     struct arena arena;
     const char *file, *title; /* title "" when not given */
     enum unit_system units;
-    struct vec gravity; /* acceleration, straight down by default */
+    struct vec gravity; /* acceleration in the plane, straight down by default */
+    double pressing;    /* acceleration of gravity normal to the plane; 0 where that is vertical */
     double datum;       /* height y at which the potential energy of gravity is zero */
     size_t parameter_count, table_count, body_count, event_count, force_coupling_count, constraint_count;
     struct parameter *parameters; /* of `parameters`, then of `inputs` */

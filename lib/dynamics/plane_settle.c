@@ -1,0 +1,279 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "dynamics/forward.h"
+#include "dynamics/friction.h"
+#include "dynamics/modes.h"
+#include "dynamics/plane_friction.h"
+#include "dynamics/state.h"
+#include "dynamics/tree_system.h"
+
+/* The points at rest relative to their planes, without their forces. */
+struct at_rest {
+    struct fbd_state *state;
+    struct instant at; /* with all of them loose */
+    int count;
+    int *pair;      /* count */
+    bool *slips;    /* count: it has begun to slip, or is at its limit */
+    double *radius; /* count: c */
+    double *b, *W;  /* 2 count; its square */
+    struct vec *f;  /* count: the forces, along e and k x e */
+};
+
+/* ---- the problem */
+
+static const struct coupling *coupling_of(const struct at_rest *rest, int i)
+{
+    const struct mode *mode = mode_of(rest->state, rest->pair[i]);
+    return &rest->state->model->tree->couplings[mode->coupling];
+}
+
+/* Does it slip already? */
+static bool moves(const struct fbd_state *state, const struct decided *decided, int pair)
+{
+    const int index = mode_of(state, pair)->coupling;
+    const struct instant at = state_instant(state);
+    if (friction_is_never(mode_of(state, pair))) return true;
+    if (decided && (state->slip[pair] == stick || state->slip_rests[pair])) return false;
+    return plane_speed(state->model, state->tree, index).slip >
+           coupling_slip_rounding(state->model, &at, index);
+}
+
+/* Let it slip in the direction of its velocity; true when its force stays as it is. */
+static bool follow(struct fbd_state *state, int pair)
+{
+    const double rounding = 1e-12;
+    const int index = mode_of(state, pair)->coupling;
+    const struct vec before = state->tree->couplings[index].e;
+    const bool same = state->slip[pair] == slip_plus;
+    state->slip[pair] = slip_plus;
+    plane_aim(state->model, state->tree, index);
+    return same && vec_norm(vec_sub(before, state->tree->couplings[index].e)) <= rounding;
+}
+
+static bool make_room(struct at_rest *rest, struct arena *arena)
+{
+    const size_t pairs = rest->state->model->plan.mode_count, count = (size_t)rest->count;
+    rest->slips = ARENA_ARRAY(arena, count, bool);
+    rest->radius = ARENA_ARRAY(arena, count, double);
+    rest->b = ARENA_ARRAY(arena, 2 * count, double);
+    rest->W = ARENA_ARRAY(arena, 4 * count * count, double);
+    rest->f = ARENA_ARRAY(arena, count, struct vec);
+    int *trial = ARENA_ARRAY(arena, pairs, int);
+    if (!rest->slips || !rest->radius || !rest->b || !rest->W || !rest->f || !trial) return false;
+    memcpy(trial, rest->state->slip, pairs * sizeof *trial);
+    for (int i = 0; i < rest->count; i++) trial[rest->pair[i]] = loose;
+    rest->at.slip = trial;
+    return true;
+}
+
+/* Accelerations without the forces. */
+static void set_free(struct at_rest *rest)
+{
+    struct fbd_state *state = rest->state;
+    accelerations(state->model, &rest->at, state->scratch, state->a);
+    for (int i = 0; i < rest->count; i++)
+        for (int k = 0; k < 2; k++)
+            rest->b[2 * i + k] = state->tree->rows[coupling_of(rest, i)->first_row + k].g.x2;
+}
+
+static void add_answers(struct at_rest *rest, int column)
+{
+    const int size = 2 * rest->count;
+    for (int i = 0; i < size; i++)
+        rest->W[i * size + column] +=
+            tree_row_answer(rest->state->tree, coupling_of(rest, i / 2)->first_row + i % 2);
+}
+
+/* Accelerations by a unit force. */
+static void add_column(struct at_rest *rest, int column)
+{
+    const struct fbd_model *model = rest->state->model;
+    const struct tree *tree = model->tree;
+    struct tree_work *work = rest->state->tree;
+    memset(work->x, 0, (size_t)tree->count * sizeof *work->x);
+    row_apply(&work->rows[coupling_of(rest, column / 2)->first_row + column % 2], 1, work->x);
+    tree_inward(tree, work, 1, tree->count);
+    tree_outward(tree, work, 1, tree->count, work->unit);
+    add_answers(rest, column);
+    for (int j = 0; j < tree_unknowns(tree); j++)
+        work->z[j] = j < tree->row_count ? -tree_row_answer(work, j) : 0;
+    tree_want_massless(tree, work, work->unit, work->z);
+    tree_system_solve(model, &rest->at, work->z);
+    add_answers(rest, column);
+}
+
+/* ---- its solution */
+
+/* A disc: A f + b = -s f with s >= 0 and |f| <= c. In the principal axes of A. */
+struct disc {
+    double a[2]; /* principal values */
+    struct vec axis;
+    double c;
+};
+
+static struct disc disc_of(const struct at_rest *rest, int i)
+{
+    const size_t size = 2 * (size_t)rest->count;
+    const double *A = &rest->W[2 * (size_t)i * (size + 1)];
+    const double mean = (A[0] + A[size + 1]) / 2, half = (A[0] - A[size + 1]) / 2;
+    const double across = (A[1] + A[size]) / 2, spread = hypot(half, across);
+    return (struct disc){{mean + spread, mean - spread}, vec_unit(atan2(across, half) / 2), rest->radius[i]};
+}
+
+/* -(A + s 1)^-1 b in the principal axes; a direction in which nothing yields has no force. */
+static struct vec force_at(const struct disc *disc, struct vec b, double s)
+{
+    const double immovable = 1e-12, least = immovable * disc->a[0];
+    return (struct vec){disc->a[0] + s > 0 ? -b.x / (disc->a[0] + s) : 0,
+                        disc->a[1] + s > least ? -b.y / (disc->a[1] + s) : 0};
+}
+
+/* The force of a disc. 1/|f| grows nearly linearly with s: Newton's method on 1/|f| = 1/c from s = 0 is monotonic (J. J.
+ * More and D. C. Sorensen, SIAM J. Sci. Stat. Comput. 4, 1983, 553). `b` is the acceleration without it. */
+static struct vec disc_force(const struct disc *disc, struct vec b, bool *slips)
+{
+    enum { most_steps = 60 };
+    const double rounding = 1e-12;
+    const struct vec own = {vec_dot(disc->axis, b), vec_cross(disc->axis, b)};
+    struct vec f = force_at(disc, own, 0);
+    double s = 0;
+    *slips = vec_norm(f) > (1 + rounding) * disc->c || disc->c == 0;
+    if (disc->c == 0) return (struct vec){0, 0};
+    for (int step = 0; *slips && step < most_steps; step++) {
+        const double size = vec_norm(f);
+        const double slope = (f.x * f.x / (disc->a[0] + s) + f.y * f.y / (disc->a[1] + s)) / (size * size);
+        const double change = (size / disc->c - 1) / slope;
+        s += change;
+        f = force_at(disc, own, s);
+        if (!(change > rounding * s)) break;
+    }
+    if (*slips) f = vec_scale(disc->c / vec_norm(f), f);
+    return vec_turn(disc->axis, f);
+}
+
+/* The acceleration of point i by all forces but its own. */
+static struct vec by_others(const struct at_rest *rest, int i)
+{
+    const int size = 2 * rest->count;
+    double sum[2] = {rest->b[2 * i], rest->b[2 * i + 1]};
+    for (int k = 0; k < 2; k++)
+        for (int j = 0; j < rest->count; j++)
+            if (j != i)
+                sum[k] += rest->W[(2 * i + k) * size + 2 * j] * rest->f[j].x +
+                          rest->W[(2 * i + k) * size + 2 * j + 1] * rest->f[j].y;
+    return (struct vec){sum[0], sum[1]};
+}
+
+static void relax(struct at_rest *rest)
+{
+    enum { most_sweeps = 20000 };
+    const double rounding = 1e-14;
+    double change = 1;
+    for (int sweep = 0; sweep < most_sweeps && change > rounding; sweep++) {
+        change = 0;
+        for (int i = 0; i < rest->count; i++) {
+            const struct disc disc = disc_of(rest, i);
+            const struct vec f = disc_force(&disc, by_others(rest, i), &rest->slips[i]);
+            if (disc.c > 0) change = fmax(change, vec_norm(vec_sub(f, rest->f[i])) / disc.c);
+            rest->f[i] = f;
+        }
+    }
+}
+
+/* Points that are at their limit slip with kinetic friction, by which others may exceed theirs. */
+static void solve(struct at_rest *rest, const struct decided *decided)
+{
+    bool more = true;
+    for (int round = 0; more && round <= rest->count; round++) {
+        more = false;
+        relax(rest);
+        for (int i = 0; i < rest->count; i++) {
+            const int pair = rest->pair[i];
+            const double kinetic =
+                friction_coefficient(rest->state->model, pair, &mode_of(rest->state, pair)->mu_k, &rest->at,
+                                     NULL, NULL);
+            const bool breaks = rest->slips[i] || (decided && decided->slips[pair]);
+            if (!breaks || !(kinetic < rest->radius[i])) continue;
+            rest->radius[i] = fmax(0, kinetic);
+            more = true;
+        }
+    }
+}
+
+/* ---- modes */
+
+static void set_radii(struct at_rest *rest)
+{
+    for (int i = 0; i < rest->count; i++)
+        rest->radius[i] = friction_at(rest->state->model, rest->pair[i], &rest->at, rest->state->slots).limit;
+}
+
+/* Set the mode and direction of point i; true when the mode stays. */
+static bool set_mode(struct at_rest *rest, int i, const struct decided *decided)
+{
+    struct fbd_state *state = rest->state;
+    const int pair = rest->pair[i], before = state->slip[pair];
+    const struct vec a = by_others(rest, i);
+    const struct vec way = vec_norm(rest->f[i]) > 0 ? vec_scale(-1, rest->f[i]) : a;
+    struct vec *e = &state->tree->couplings[mode_of(state, pair)->coupling].e;
+    const bool slips = rest->slips[i] || (decided && decided->slips[pair]);
+    state->slip[pair] = slips ? slip_plus : stick;
+    if (slips && vec_norm(way) > 0) *e = vec_turn(*e, vec_scale(1 / vec_norm(way), way));
+    return state->slip[pair] == before;
+}
+
+static bool settle_at_rest(struct at_rest *rest, const struct decided *decided, struct arena *arena)
+{
+    bool same = true;
+    if (!make_room(rest, arena)) {
+        rest->state->holds.found = holds_no_memory;
+        return true;
+    }
+    set_radii(rest);
+    set_free(rest);
+    for (int k = 0; k < 2 * rest->count; k++) add_column(rest, k);
+    solve(rest, decided);
+    for (int i = 0; i < rest->count; i++) same &= set_mode(rest, i, decided);
+    return same;
+}
+
+bool planes_settle(struct fbd_state *state, const struct decided *decided)
+{
+    struct arena arena = state_lend(state);
+    struct at_rest rest = {.state = state, .at = state_instant(state)};
+    bool same = true;
+    rest.pair = ARENA_ARRAY(&arena, state->model->plan.mode_count, int);
+    if (!rest.pair) state->holds.found = holds_no_memory;
+    for (int pair = 0; rest.pair && pair < (int)state->model->plan.mode_count; pair++) {
+        if (mode_of(state, pair)->kind != mode_plane) continue;
+        if (!mode_has_ended(state, pair) && !moves(state, decided, pair)) {
+            rest.pair[rest.count++] = pair;
+            continue;
+        }
+        same &= follow(state, pair);
+    }
+    if (rest.count > 0) same &= settle_at_rest(&rest, decided, &arena);
+    state_take_back(state, &arena);
+    if (rest.count > 0 && same) state_evaluate(state);
+    return same;
+}
+
+void planes_aim(struct fbd_state *state)
+{
+    const struct instant at = state_instant(state);
+    tree_move(state->model, &at);
+    for (int i = 0; i < state->model->tree->coupling_count; i++)
+        if (state->model->tree->couplings[i].kind == constraint_plane)
+            plane_aim(state->model, state->tree, i);
+}
+
+void plane_unstick(struct fbd_state *state, int pair)
+{
+    const int index = mode_of(state, pair)->coupling;
+    const struct instant at = state_instant(state);
+    const double slip = plane_speed(state->model, state->tree, index).slip;
+    if (state->slip[pair] != stick || slip <= coupling_slip_rounding(state->model, &at, index)) return;
+    plane_aim(state->model, state->tree, index);
+    state->slip[pair] = slip_plus;
+}
