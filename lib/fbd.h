@@ -170,9 +170,9 @@ typedef struct fbd_callback {
 /* The model with the same values, in which callbacks compute some of its `inputs`, for example forces. Derivatives of a
  * callback are central differences. Error bars hold for the callback as it is, called in their second run as well. For
  * such an input fbd_parameter.value is NAN. There are no C program and no derivatives by it. NULL with notes in `errors`:
- * `unknown-input`, `too-many-numbers` for more than 500 numbers, or the notes of the file. */
-FBD_API fbd_model *fbd_model_with_callbacks(const fbd_model *model, const fbd_callback *callbacks, size_t count,
-                                            fbd_errors *errors);
+ * `unknown-input`, `bad-call`, or the notes of the file. */
+FBD_API fbd_model *fbd_model_with_callbacks(const fbd_model *model, const fbd_callback *callbacks,
+                                            size_t count, fbd_errors *errors);
 
 /* The title of the file, "" when it has none. */
 FBD_API const char *fbd_model_title(const fbd_model *model);

@@ -59,8 +59,7 @@ static bool fits(const fbd_model *model, fbd_errors *errors)
         return false;
     }
     if (plan_size(&model->plan) <= most_called_numbers) return true;
-    diag_add(errors, FBD_ERROR, "too-many-numbers", (struct pos){0, 0}, NULL,
-             "a model with more than %d coordinates, rates and states has no callbacks", most_called_numbers);
+    api_refuse(errors, "a model with more than 500 coordinates, rates and user states has no callbacks");
     return false;
 }
 
@@ -74,7 +73,8 @@ static struct scene *read_again(const fbd_model *model, const fbd_callback *call
     struct scene *read = NULL;
     if (!list)
         diag_out_of_memory(errors);
-    else if (place_callbacks(scene, callbacks, count, list + overrides - scene->parameter_count, &arena, errors))
+    else if (place_callbacks(scene, callbacks, count, list + overrides - scene->parameter_count, &arena,
+                             errors))
         read = scene_read(model->source, model->source_length, scene->file, list, overrides, scene, errors);
     arena_free(&arena);
     return read;

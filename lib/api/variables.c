@@ -118,7 +118,8 @@ static double parameter_at(const struct fbd_state *state, size_t index)
     const struct parameter *parameter = &state->model->scene->parameters[index];
     double value = NAN;
     if (!parameter->call.function) return parameter->value;
-    return parameter->call.function(parameter->call.context, state->t, state->y, &value) == 0 ? value : (double)NAN;
+    return parameter->call.function(parameter->call.context, state->t, state->y, &value) == 0 ? value
+                                                                                              : (double)NAN;
 }
 
 static double value_of(const struct fbd_state *state, struct place place)

@@ -201,7 +201,8 @@ static void check_calls(const struct fbd_model *model, fbd_errors *errors)
 {
     for (size_t i = 0; i < model->scene->parameter_count; i++)
         if (model->scene->parameters[i].call.function)
-            lacks(errors, model->scene->parameters[i].at, "an input by a callback", model->scene->parameters[i].name);
+            lacks(errors, model->scene->parameters[i].at, "an input by a callback",
+                  model->scene->parameters[i].name);
 }
 
 bool emit_admits(const struct fbd_model *model, fbd_errors *errors)

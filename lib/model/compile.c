@@ -334,8 +334,8 @@ static bool set_absolutes(struct fbd_model *model)
                                     .part = (enum reaction_part)(reacts ? absolute->part : 0),
                                     .load = -1};
         model->names_places |= absolute->moves;
-        model->names_poses |= absolute->moves && absolute->kind != absolute_slip &&
-                              absolute->kind != absolute_input && !reacts;
+        model->names_poses |=
+            absolute->moves && absolute->kind != absolute_slip && absolute->kind != absolute_input && !reacts;
         model->names_reactions |= reacts;
     }
     return model->absolutes != NULL;

@@ -411,8 +411,10 @@ void report_parameters(const struct page *page, size_t most)
     }
     if (scene->parameter_count > most) text_printf(text, "  and %zu more\n", scene->parameter_count - most);
     if (scene_has_calls(scene))
-        text_add(text, "  Inputs by callbacks come from outside the file: they are taken to be smooth between events and the "
-                       "same function in\n  each call; the second run for error bars calls them, too, so their own errors are "
+        text_add(text, "  Inputs by callbacks come from outside the file: they are taken to be smooth "
+                       "between events and the "
+                       "same function in\n  each call; the second run for error bars calls them, too, so "
+                       "their own errors are "
                        "in no error bar.\n");
 }
 

@@ -147,8 +147,9 @@ static struct symbol time_symbol(const struct names *names)
 /* An input that a callback computes; in derivations by hand it is a constant, as other inputs. */
 static struct symbol call_symbol(const struct names *names, size_t index, struct symbol value)
 {
-    const struct absolute input = {
-        .point = {.kind = point_fixed}, .kind = absolute_input, .part = (int)index};
+    const struct absolute input = {.point = {.kind = point_fixed},
+                                   .kind = absolute_input,
+                                   .part = (int)index};
     struct symbol symbol = names_absolute(names->reader, names->place, &input);
     symbol.dim = value.dim;
     symbol.free = value.free;

@@ -156,8 +156,8 @@ struct absolute {
         absolute_reaction, /* in events: of a constraint, a spring or damper, or the joint of the body */
         absolute_input,    /* an input that a callback computes */
     } kind;
-    int part;                    /* of absolute_reaction: enum reaction_part; of absolute_input: the parameter */
-    const char *force;           /* of absolute_reaction: name of the spring or damper; or NULL */
+    int part;          /* of absolute_reaction: enum reaction_part; of absolute_input: the parameter */
+    const char *force; /* of absolute_reaction: name of the spring or damper; or NULL */
     const struct force_sum *sum; /* of a declared symbol, whose key is then `force` */
     int roll; /* absolute_slip of a rolling body, absolute_reaction: 1 + index of its constraint; else 0 */
     bool angular; /* absolute_slip of a bearing */
@@ -206,8 +206,8 @@ struct parameter {
     struct dim dim;
     bool bare; /* given without a unit */
     bool used;
-    bool derived; /* defined by other parameters or gravity */
-    bool input;   /* of `inputs`: constant between two changes from outside */
+    bool derived;           /* defined by other parameters or gravity */
+    bool input;             /* of `inputs`: constant between two changes from outside */
     struct input_call call; /* of an input that a callback computes */
 };
 
@@ -289,7 +289,7 @@ struct override {
     const char *value; /* NULL: value of the file, which may differ in other readings */
     bool as_time;      /* the input replaces the time (also in derivatives), which is the constant `now` */
     double now;
-    bool varies; /* its value will change in the next reading (patch.h) */
+    bool varies;            /* its value will change in the next reading (patch.h) */
     struct input_call call; /* computes the input instead */
 };
 

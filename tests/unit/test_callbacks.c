@@ -23,18 +23,20 @@
 /* ---- a pole on a pivot, a cart with a pole, a block with friction: %s is the law */
 
 #define POLE                                                                                                 \
-    "fbd: 1\ninputs: {M: 0 N*m}\nbodies:\n  pole:\n    motion: {pivot: {at: [0, 0]}}\n"                     \
+    "fbd: 1\ninputs: {M: 0 N*m}\nbodies:\n  pole:\n    motion: {pivot: {at: [0, 0]}}\n"                      \
     "    parts: {rod: {shape: rod, mass: 2 kg, from: [0, 0], to: [0, 1 m]}}\n"                               \
-    "    initial: {theta: 10 deg}\n    forces: [gravity]\n    moments: [applied: {name: motor, value: 'LAW'}]\n" \
+    "    initial: {theta: 10 deg}\n    forces: [gravity]\n    moments: [applied: {name: motor, value: "      \
+    "'LAW'}]\n"                                                                                              \
     "simulate: {until: 3 s, events: [{name: half, when: 'theta = 5 deg'}]}\n"
 #define CART                                                                                                 \
-    "fbd: 1\ninputs: {F: 0 N}\nbodies:\n  cart: {mass: 2 kg, motion: slide, forces: [applied: {value: 'LAW'}]}\n" \
+    "fbd: 1\ninputs: {F: 0 N}\nbodies:\n  cart: {mass: 2 kg, motion: slide, forces: [applied: {value: "      \
+    "'LAW'}]}\n"                                                                                             \
     "  pole:\n    motion: {pivot: {on: cart, at: [0, 0]}}\n"                                                 \
     "    parts: {rod: {shape: rod, mass: 0.5 kg, from: [0, 0], to: [0, 1 m]}}\n"                             \
     "    initial: {theta: 5 deg}\n    forces: [gravity]\nsimulate: {until: 2 s}\n"
 #define BLOCK                                                                                                \
     "fbd: 1\ninputs: {F: 0 N}\nbodies:\n  block:\n    mass: 2 kg\n    motion: slide\n"                       \
-    "    forces: [gravity, normal, friction: {static: 0.3, kinetic: 0.2}, applied: {value: 'LAW'}]\n"          \
+    "    forces: [gravity, normal, friction: {static: 0.3, kinetic: 0.2}, applied: {value: 'LAW'}]\n"        \
     "simulate: {until: 6 s}\n"
 
 struct law {
@@ -144,7 +146,8 @@ static void compare(struct checks *checks, const fbd_model *by_call, const fbd_m
     assert_int_equal(fbd_result_outcome(want.result), FBD_DONE);
     assert_int_equal(fbd_simulation_event_count(got.simulation), events);
     for (size_t i = 0; i < events; i++) {
-        const fbd_event a = fbd_simulation_event(got.simulation, i), b = fbd_simulation_event(want.simulation, i);
+        const fbd_event a = fbd_simulation_event(got.simulation, i),
+                        b = fbd_simulation_event(want.simulation, i);
         assert_int_equal(a.kind, b.kind);
         check_close(checks, "time of an event", a.t, b.t, tolerance);
     }
@@ -171,9 +174,10 @@ static void a_callback_moves_as_its_law(void **unused)
     const char *const methods[] = {"auto", "rk8pd", "msbdf", "rk4imp"};
     fbd_model *got[] = {called(POLE, "M", pd_of_pole, &pole), called(CART, "F", feedback_of_cart, &cart),
                         called(BLOCK, "F", rising_push, &block)};
-    fbd_model *want[] = {model_of(POLE, "-40[N*m]*theta - 8[N*m*s]*omega"),
-                         model_of(CART, "60[N]*sin(pole.theta) + 12[N*s]*pole.omega + 2[N/m]*x + 1[N]*sin(t*1[1/s])"),
-                         model_of(BLOCK, "10[N]*sin(2[1/s]*t)")};
+    fbd_model *want[] = {
+        model_of(POLE, "-40[N*m]*theta - 8[N*m*s]*omega"),
+        model_of(CART, "60[N]*sin(pole.theta) + 12[N*s]*pole.omega + 2[N/m]*x + 1[N]*sin(t*1[1/s])"),
+        model_of(BLOCK, "10[N]*sin(2[1/s]*t)")};
     for (size_t i = 0; i < 3; i++)
         for (size_t k = 0; k < 4; k++) compare(&checks, got[i], want[i], methods[k], 1e-7);
     assert_true(pole.calls > 100 && cart.calls > 100 && block.calls > 100);
