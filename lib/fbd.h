@@ -154,6 +154,26 @@ FBD_API fbd_model *fbd_model_parse(const char *text, size_t length, const char *
                                    const fbd_setting *settings, size_t setting_count, fbd_errors *errors);
 FBD_API void fbd_model_free(fbd_model *model);
 
+/* Computes an input at time `t` [s] and `y`: the coordinates of the model in the order of fbd_model_coordinate, their
+ * rates, then the user states, at most 500 numbers in their units; `*value` in the unit of the input. Called in every
+ * right-hand side, at times in any order, by the threads of all runs of its model. It must be a function of t and y,
+ * smooth between the events of the file: a switch inside is not found, and costs accuracy. Any value but 0, or a
+ * `*value` that is not finite, makes the forces not finite, so that the run fails. */
+typedef int fbd_force_callback(void *context, double t, const double *y, double *value);
+
+typedef struct fbd_callback {
+    const char *input;
+    fbd_force_callback *function;
+    void *context; /* must outlive the model and all made from it */
+} fbd_callback;
+
+/* The model with the same values, in which callbacks compute some of its `inputs`, for example forces. Derivatives of a
+ * callback are central differences. Error bars hold for the callback as it is, called in their second run as well. For
+ * such an input fbd_parameter.value is NAN. There are no C program and no derivatives by it. NULL with notes in `errors`:
+ * `unknown-input`, `bad-call`, or the notes of the file. */
+FBD_API fbd_model *fbd_model_with_callbacks(const fbd_model *model, const fbd_callback *callbacks,
+                                            size_t count, fbd_errors *errors);
+
 /* The title of the file, "" when it has none. */
 FBD_API const char *fbd_model_title(const fbd_model *model);
 

@@ -22,6 +22,14 @@
 
 static int fbd_ask(void *handle, const fbd_progress *progress); /* in Python; non-zero ends the run */
 
+static int fbd_input(void *context, double t, const double *y, double *value); /* in Python */
+
+/* An fbd_force_callback. */
+static int glue_input(void *context, double t, const double *y, double *value)
+{
+    return fbd_input(context, t, y, value);
+}
+
 typedef struct glue_watch {
     void *handle; /* of the object in Python that is asked */
     bool stopped;

@@ -21,6 +21,8 @@ static int glue_is_stopped(void *context);
 static void glue_stop(glue_sheet *sheet);
 static void glue_free(glue_sheet *sheet);
 static void glue_quiet(void);
+static int glue_input(void *context, double t, const double *y, double *value);
+extern "Python" int fbd_input(void *context, double t, const double *y, double *value);
 extern "Python" int fbd_ask(void *handle, const fbd_progress *progress);
 """
 

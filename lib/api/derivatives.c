@@ -65,6 +65,11 @@ static bool derive(const fbd_state *state, const size_t *variables, size_t count
                    fbd_errors *errors)
 {
     size_t size = 2 * state->model->scene->coordinate_count;
+    if (scene_has_calls(state->model->scene)) {
+        diag_add(errors, FBD_ERROR, "no-derivatives", (struct pos){0, 0}, NULL,
+                 "a model with an input by a callback has no derivatives");
+        return false;
+    }
     if (!has_derivatives(state->model)) {
         diag_in_file(errors, state->model->scene->file);
         diag_add(errors, FBD_ERROR, "no-derivatives", (struct pos){0, 0}, NULL,

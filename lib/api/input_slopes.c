@@ -34,9 +34,7 @@ bool state_slopes(const fbd_state *state, double *dfdy, double *dfdt)
 
 /* ---- by an input */
 
-/* The values of the model as overrides: its data files, and all parameters and inputs. */
-static struct override *list_overrides(const struct fbd_model *model, size_t input, double t,
-                                       struct arena *arena, size_t *count)
+struct override *model_overrides(const struct fbd_model *model, struct arena *arena, size_t *count)
 {
     const struct scene *scene = model->scene;
     struct override *list =
@@ -54,8 +52,7 @@ static struct override *list_overrides(const struct fbd_model *model, size_t inp
         if (!text) return NULL;
         list[(*count)++] = (struct override){.name = scene->parameters[i].name,
                                              .value = text,
-                                             .as_time = i == input,
-                                             .now = t};
+                                             .call = scene->parameters[i].call};
     }
     return list;
 }
@@ -66,11 +63,15 @@ struct fbd_model *model_by_input(const fbd_state *state, size_t input)
     size_t count;
     const struct fbd_model *model = state->model;
     fbd_errors *errors = fbd_errors_new();
-    const struct override *overrides = errors ? list_overrides(model, input, state->t, &arena, &count) : NULL;
+    struct override *overrides = errors ? model_overrides(model, &arena, &count) : NULL;
     struct scene *scene = NULL;
-    if (overrides)
+    if (overrides) {
+        struct override *time = &overrides[count - model->scene->parameter_count + input];
+        time->as_time = true;
+        time->now = state->t;
         scene = scene_read(model->source, model->source_length, model->scene->file, overrides, count, NULL,
                            errors);
+    }
     struct fbd_model *by = scene ? model_compile(scene, errors) : NULL;
     arena_free(&arena);
     fbd_errors_free(errors);

@@ -16,6 +16,10 @@ bool plan_remembers(const struct plan *plan);
 /* The Jacobian of a copy of the state: dfdy[size x size] and dfdt[size], size = plan_size. False when memory is out. */
 bool state_slopes(const fbd_state *state, double *dfdy, double *dfdt);
 
+/* The values of a model for another reading, in `arena`: its data files, then all parameters and inputs in the order of the
+ * scene. NULL when memory is out. */
+struct override *model_overrides(const struct fbd_model *model, struct arena *arena, size_t *count);
+
 /* The model in which input `input` (of the parameters of the scene) replaces the time; NULL when memory is out. */
 struct fbd_model *model_by_input(const fbd_state *state, size_t input);
 

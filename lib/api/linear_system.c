@@ -149,6 +149,13 @@ static bool refuse_input(const struct building *building, const char *name)
     return false;
 }
 
+static bool refuse_called(const struct building *building, const char *name)
+{
+    diag_add(building->errors, FBD_ERROR, "no-derivatives", (struct pos){0, 0},
+             "linearize the model without the callback", "the input `%s` is computed by a callback", name);
+    return false;
+}
+
 /* A column of B, from the derivatives of the rates of all coordinates and user states. */
 static void take_column(struct fbd_linear_system *system, size_t column, const double *dfdu)
 {
@@ -163,6 +170,8 @@ static bool make_column(const struct building *building, size_t column, double *
 {
     const struct fbd_linearization *linear = building->system->linear;
     const size_t wide = plan_size(&building->model->plan), input = building->inputs[column];
+    if (linear->model->scene->parameters[input].call.function)
+        return refuse_called(building, building->system->inputs[column].name);
     struct fbd_model *by = model_by_input(linear->state, input);
     if (!by) return false;
     bool meant = !equilibrium_refuse_reels(by, NULL);

@@ -178,7 +178,7 @@ fbd_parameter fbd_model_parameter(const fbd_model *model, size_t index)
     return (fbd_parameter){.name = parameter->name,
                            .unit = parameter->unit,
                            .description = parameter->description,
-                           .value = parameter->value,
+                           .value = parameter->call.function ? (double)NAN : parameter->value,
                            .input = parameter->input,
                            .derived = parameter->derived,
                            .low = parameter->low,

@@ -88,7 +88,7 @@ static fbd_variable of_place(const struct fbd_model *model, struct place place)
     case FBD_VARIABLE_INPUT:
         variable.name = scene->parameters[i].name;
         variable.unit = scene->parameters[i].unit;
-        variable.start = scene->parameters[i].value;
+        variable.start = fbd_model_parameter(model, i).value;
         break;
     case FBD_VARIABLE_STATE:
         variable.owner = "states";
@@ -113,6 +113,15 @@ fbd_variable fbd_model_variable(const fbd_model *model, size_t index)
     return of_place(model, place_of(model->scene, index));
 }
 
+static double parameter_at(const struct fbd_state *state, size_t index)
+{
+    const struct parameter *parameter = &state->model->scene->parameters[index];
+    double value = NAN;
+    if (!parameter->call.function) return parameter->value;
+    return parameter->call.function(parameter->call.context, state->t, state->y, &value) == 0 ? value
+                                                                                              : (double)NAN;
+}
+
 static double value_of(const struct fbd_state *state, struct place place)
 {
     const struct fbd_model *model = state->model;
@@ -121,7 +130,7 @@ static double value_of(const struct fbd_state *state, struct place place)
     switch (place.kind) {
     case FBD_VARIABLE_TIME: return state->t;
     case FBD_VARIABLE_PARAMETER:
-    case FBD_VARIABLE_INPUT: return model->scene->parameters[place.index].value;
+    case FBD_VARIABLE_INPUT: return parameter_at(state, place.index);
     case FBD_VARIABLE_COORDINATE: return state->y[place.index];
     case FBD_VARIABLE_RATE: return state->y[n + place.index];
     case FBD_VARIABLE_ACCELERATION: return state->a[place.index];

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/world_refs.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "dynamics/constraint.h"
@@ -27,6 +28,7 @@ static double choose(enum absolute_kind kind, struct motion_of_point at, double 
     case absolute_mass:
     case absolute_mass_rate:
     case absolute_reaction:
+    case absolute_input:
     case absolute_slip: break;
     }
     return 0;
@@ -66,6 +68,45 @@ static double slip_along(const struct fbd_model *model, const struct model_absol
     return sign * (dv - d_speed);
 }
 
+/* ---- inputs that callbacks compute
+ *
+ * u(t, y) has no exact derivatives. Its variation is the central difference
+ *
+ *   u' = (u(t + h dt, y + h dy) - u(t - h dt, y - h dy)) / (2 h),
+ *
+ * exact for quadratic u. h changes no component by more than the cube root of the round-off, relative to its size or 1:
+ * there the truncation h^2 u_ttt/6 and the rounding eps u/h are of the same order. */
+
+static double called(const struct fbd_model *model, int input, double t, const double *y)
+{
+    const struct input_call *call = &model->scene->parameters[input].call;
+    double value = NAN;
+    return call->function(call->context, t, y, &value) == 0 ? value : NAN;
+}
+
+static double called_step(const struct instant *at, const struct direction *along, size_t size)
+{
+    const double cube_root = 6.1e-6;
+    double most = fabs(along->dt) / fmax(fabs(at->t), 1);
+    for (size_t i = 0; i < size; i++) most = fmax(most, fabs(along->dy[i]) / fmax(fabs(at->y[i]), 1));
+    return most > 0 ? cube_root / most : 0;
+}
+
+static double called_along(const struct fbd_model *model, int input, const struct instant *at,
+                           const struct direction *along)
+{
+    double y[most_called_numbers], values[2];
+    const size_t size = plan_size(&model->plan);
+    const double h = called_step(at, along, size);
+    if (h == 0) return 0;
+    for (int k = 0; k < 2; k++) {
+        const double step = k == 0 ? -h : h;
+        for (size_t i = 0; i < size; i++) y[i] = at->y[i] + step * along->dy[i];
+        values[k] = called(model, input, at->t + step * along->dt, y);
+    }
+    return (values[1] - values[0]) / (2 * h);
+}
+
 /* ---- all of them */
 
 /* Rates of masses depend on the rates of user states, which may contain any of the others. */
@@ -90,6 +131,10 @@ void world_refs_write(const struct fbd_model *model, const struct instant *at, d
         if (absolute->kind == absolute_reaction) continue; /* reactions.h */
         if (absolute->kind == absolute_slip) {
             places[k] = slip_at(model, absolute, at);
+            continue;
+        }
+        if (absolute->kind == absolute_input) {
+            places[k] = called(model, absolute->coordinate, at->t, y);
             continue;
         }
         if (absolute->kind == absolute_mass) places[k] = body_mass(body, at);
@@ -131,6 +176,7 @@ static double varied(const struct fbd_model *model, const struct model_absolute 
     const struct model_body *body = &model->bodies[absolute->body];
     if (absolute->kind == absolute_reaction) return 0;
     if (absolute->kind == absolute_slip) return slip_along(model, absolute, at, along);
+    if (absolute->kind == absolute_input) return called_along(model, absolute->coordinate, at, along);
     if (absolute->kind == absolute_mass) {
         double variation;
         formula_along(&body->mass, at, along, &variation);

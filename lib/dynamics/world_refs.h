@@ -12,6 +12,9 @@
 
 #include "dynamics/kinematics.h"
 
+/* Callbacks that compute inputs receive at most this many coordinates, rates and user states. */
+enum { most_called_numbers = 500 };
+
 /* The length of an extended vector, that of y without references. */
 static inline size_t extended_size(const struct fbd_model *model)
 {

@@ -197,6 +197,14 @@ static void check_events(const struct fbd_model *model, fbd_errors *errors)
                   model->plan.watches[i].source->name);
 }
 
+static void check_calls(const struct fbd_model *model, fbd_errors *errors)
+{
+    for (size_t i = 0; i < model->scene->parameter_count; i++)
+        if (model->scene->parameters[i].call.function)
+            lacks(errors, model->scene->parameters[i].at, "an input by a callback",
+                  model->scene->parameters[i].name);
+}
+
 bool emit_admits(const struct fbd_model *model, fbd_errors *errors)
 {
     const struct scene *scene = model->scene;
@@ -212,6 +220,7 @@ bool emit_admits(const struct fbd_model *model, fbd_errors *errors)
     for (size_t b = 0; b < scene->body_count; b++)
         if (scene->bodies[b].assemble)
             lacks(errors, scene->bodies[b].at, "a start that is found from couplings", scene->bodies[b].name);
+    check_calls(model, errors);
     check_events(model, errors);
     check_loads(model, errors);
     check_masses(model, errors);

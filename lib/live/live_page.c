@@ -165,11 +165,25 @@ static size_t room_for_numbers(const struct live_page *page)
     return taken + least < most_page_bytes ? (most_page_bytes - taken) / 4 * 3 : least;
 }
 
+/* A page has no callbacks: inputs by them have no value. */
+static bool has_values(const fbd_model *model, fbd_errors *errors)
+{
+    for (size_t i = 0; i < fbd_model_parameter_count(model); i++) {
+        if (!isnan(fbd_model_parameter(model, i).value)) continue;
+        diag_add(errors, FBD_ERROR, "no-live", (struct pos){0, 0}, "write its law into the file",
+                 "the input `%s` is computed by a callback, which a live page cannot call",
+                 fbd_model_parameter(model, i).name);
+        return false;
+    }
+    return true;
+}
+
 static char *make_page(fbd_result *result, const fbd_live_options *options, fbd_errors *errors)
 {
     const fbd_model *model = fbd_state_model(fbd_result_state(result));
     struct live_page page = {.wasm = page_asset_find(wasm_name)};
     diag_in_file(errors, fbd_model_file(model));
+    if (!has_values(model, errors)) return NULL;
     if (!page.wasm) {
         diag_add(errors, FBD_ERROR, "no-live", (struct pos){0, 0},
                  "`make live` compiles the library for browsers ; then build again",

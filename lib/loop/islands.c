@@ -118,7 +118,8 @@ static void join_all(const struct fbd_model *model, int *parent, struct items *i
         for (size_t i = 0; scene->body_count > 1 && i < body->load_count; i++)
             join_load(scene, parent, &body->loads[i], (int)b);
     }
-    for (size_t b = 1; scene->own_count > 0 && b < scene->body_count; b++) join(parent, (int)b, 0);
+    const bool whole = scene->own_count > 0 || scene_has_calls(scene); /* a callback may read every number */
+    for (size_t b = 1; whole && b < scene->body_count; b++) join(parent, (int)b, 0);
     for (size_t i = 0; i < scene->event_count; i++) {
         int read = join_read(scene, parent, scene->events[i].left, -1);
         read = join_read(scene, parent, scene->events[i].right, read);

@@ -288,6 +288,7 @@ static double size_of(const struct run *run, size_t i, double reach, double spee
     case absolute_y: return reach;
     case absolute_angle: return 1;
     case absolute_angle_dot: return speed / reach;
+    case absolute_input: return 0;
     default: return speed;
     }
 }

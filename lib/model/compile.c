@@ -327,12 +327,15 @@ static bool set_absolutes(struct fbd_model *model)
             (struct model_absolute){.body = absolute->body,
                                     .point = point,
                                     .kind = absolute->kind,
-                                    .coordinate = model->bodies[absolute->body].first + absolute->part,
+                                    .coordinate = absolute->kind == absolute_input
+                                                      ? absolute->part
+                                                      : model->bodies[absolute->body].first + absolute->part,
                                     .pair = -1,
                                     .part = (enum reaction_part)(reacts ? absolute->part : 0),
                                     .load = -1};
         model->names_places |= absolute->moves;
-        model->names_poses |= absolute->moves && absolute->kind != absolute_slip && !reacts;
+        model->names_poses |=
+            absolute->moves && absolute->kind != absolute_slip && absolute->kind != absolute_input && !reacts;
         model->names_reactions |= reacts;
     }
     return model->absolutes != NULL;

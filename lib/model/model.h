@@ -88,7 +88,7 @@ struct model_absolute {
     int body;
     struct vec point;
     enum absolute_kind kind;
-    int coordinate;          /* absolute_acceleration */
+    int coordinate;          /* absolute_acceleration; absolute_input: the parameter of the scene */
     int pair;                /* absolute_slip: index into plan.modes, or -1 when that mode was removed */
     bool even;               /* absolute_slip: remains a magnitude beyond the end of a mode, see slips.c */
     enum reaction_part part; /* absolute_reaction: */

@@ -14,7 +14,8 @@ static struct override *parameters_as_they_are(struct arena *arena, const struct
         text_number(&text, scene->parameters[i].value, 17);
         if (!text.failed)
             overrides[i] = (struct override){.name = scene->parameters[i].name,
-                                             .value = arena_text(arena, text.data, text.length)};
+                                             .value = arena_text(arena, text.data, text.length),
+                                             .call = scene->parameters[i].call};
         text_free(&text);
         if (!overrides[i].value) return NULL;
     }

@@ -16,7 +16,9 @@ static const char *remark_of(struct making *making, const fbd_parameter *paramet
     text_shown(text, parameter->description);
     const char *between = parameter->description[0] ? "; " : "";
     if (parameter->input)
-        text_printf(text, "%san input, constant in this run", between);
+        text_printf(text, "%san input, %s", between,
+                    isnan(parameter->value) ? "by a callback of the program, not of the file"
+                                            : "constant in this run");
     else if (parameter->derived)
         text_printf(text, "%sfollows from others", between);
     return making_take(making);
@@ -38,7 +40,9 @@ static void list_parameters(struct making *making)
         const fbd_parameter parameter = fbd_model_parameter(making->model, i);
         document_cell(making->document, table, making_symbol(making, parameter.name));
         document_cell(making->document, table,
-                      making_value(making, parameter.value, parameter.unit, note_digits));
+                      isnan(parameter.value)
+                          ? "u(t, y)"
+                          : making_value(making, parameter.value, parameter.unit, note_digits));
         if (remarks) document_cell(making->document, table, remark_of(making, &parameter));
     }
 }

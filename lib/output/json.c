@@ -51,7 +51,9 @@ static void write_origin(struct text *text, const struct fbd_model *model)
     }
     text_add(text, "]},\n  \"parameters\": {");
     for (size_t i = 0; i < scene->parameter_count; i++)
-        member(text, scene->parameters[i].name, scene->parameters[i].value, i + 1 == scene->parameter_count);
+        member(text, scene->parameters[i].name,
+               scene->parameters[i].call.function ? (double)NAN : scene->parameters[i].value,
+               i + 1 == scene->parameter_count);
     text_add(text, "},\n");
 }
 

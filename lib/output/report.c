@@ -401,11 +401,21 @@ void report_parameters(const struct page *page, size_t most)
         text_printf(text, "  %s", parameter->name);
         text_pad(text, 16);
         text_add(text, " = ");
+        if (parameter->call.function) {
+            text_add(text, "u(t, y), an input by a callback of the program\n");
+            continue;
+        }
         text_number(text, parameter->value, digits);
         text_printf(text, "%s%s%s\n", unit_word(parameter->unit)[0] ? " " : "", unit_word(parameter->unit),
                     parameter->input ? ", an input" : "");
     }
     if (scene->parameter_count > most) text_printf(text, "  and %zu more\n", scene->parameter_count - most);
+    if (scene_has_calls(scene))
+        text_add(text, "  Inputs by callbacks come from outside the file: they are taken to be smooth "
+                       "between events and the "
+                       "same function in\n  each call; the second run for error bars calls them, too, so "
+                       "their own errors are "
+                       "in no error bar.\n");
 }
 
 void report_cost(const struct page *page)

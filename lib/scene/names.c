@@ -144,6 +144,18 @@ static struct symbol time_symbol(const struct names *names)
     return time;
 }
 
+/* An input that a callback computes; in derivations by hand it is a constant, as other inputs. */
+static struct symbol call_symbol(const struct names *names, size_t index, struct symbol value)
+{
+    const struct absolute input = {.point = {.kind = point_fixed},
+                                   .kind = absolute_input,
+                                   .part = (int)index};
+    struct symbol symbol = names_absolute(names->reader, names->place, &input);
+    symbol.dim = value.dim;
+    symbol.free = value.free;
+    return symbol;
+}
+
 /* A parameter; or an input, which is not constant: it may change during a run. */
 static struct symbol constant_symbol(struct names *names, size_t index, struct pos at)
 {
@@ -153,6 +165,9 @@ static struct symbol constant_symbol(struct names *names, size_t index, struct p
     if (input) reader->names_inputs = true;
     bool is_time = reader->time && strcmp(reader->time->name, reader->scene->parameters[index].name) == 0;
     bool varies = input && (names->place == place_constant || is_time);
+    bool called = reader->scene->parameters[index].call.function && names->place != place_hand &&
+                  names->place != place_exact && !varies;
+    if (called && symbol.kind == symbol_constant) return call_symbol(names, index, symbol);
     if (!varies || symbol.kind != symbol_constant) return symbol;
     symbol = slot_symbol(symbol.dim, 0);
     symbol.because = "is an input, which may change during a run";

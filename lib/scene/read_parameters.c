@@ -81,6 +81,7 @@ static bool apply_overrides(struct reader *reader, const struct override *overri
         } else if (definition) {
             definition->override = overrides[i].value ? &overrides[i] : NULL;
             definition->varies = !overrides[i].value || overrides[i].varies;
+            reader->scene->parameters[index].call = overrides[i].call;
         } else {
             note_unknown_override(reader, &overrides[i]);
         }

@@ -154,9 +154,10 @@ struct absolute {
         absolute_work,     /* of a force during a run */
         absolute_impulse,  /* of a force during a run */
         absolute_reaction, /* in events: of a constraint, a spring or damper, or the joint of the body */
+        absolute_input,    /* an input that a callback computes */
     } kind;
-    int part;                    /* of absolute_reaction: enum reaction_part */
-    const char *force;           /* of absolute_reaction: name of the spring or damper; or NULL */
+    int part;          /* of absolute_reaction: enum reaction_part; of absolute_input: the parameter */
+    const char *force; /* of absolute_reaction: name of the spring or damper; or NULL */
     const struct force_sum *sum; /* of a declared symbol, whose key is then `force` */
     int roll; /* absolute_slip of a rolling body, absolute_reaction: 1 + index of its constraint; else 0 */
     bool angular; /* absolute_slip of a bearing */
@@ -189,6 +190,14 @@ struct coordinate {
 
 /* ---- parameters, events, output, grading */
 
+/* The callback that computes an input from t and y = [q, v, z]: fbd_force_callback. */
+typedef int input_function(void *context, double t, const double *y, double *value);
+
+struct input_call {
+    input_function *function; /* NULL: the input is a constant */
+    void *context;
+};
+
 struct parameter {
     const char *name, *description; /* description "" when not given */
     const char *unit;               /* coherent; "" for a pure number or an unknown unit */
@@ -197,8 +206,9 @@ struct parameter {
     struct dim dim;
     bool bare; /* given without a unit */
     bool used;
-    bool derived; /* defined by other parameters or gravity */
-    bool input;   /* of `inputs`: constant between two changes from outside */
+    bool derived;           /* defined by other parameters or gravity */
+    bool input;             /* of `inputs`: constant between two changes from outside */
+    struct input_call call; /* of an input that a callback computes */
 };
 
 struct user_event {
@@ -266,13 +276,22 @@ static inline size_t hand_sense_size(const struct scene *scene)
     return scene_size(scene) + hand_slots + most_absolutes;
 }
 
+/* True if a callback computes an input. */
+static inline bool scene_has_calls(const struct scene *scene)
+{
+    for (size_t i = 0; i < scene->parameter_count; i++)
+        if (scene->parameters[i].call.function) return true;
+    return false;
+}
+
 /* A parameter set from outside, as text: `--set f1=50 N`; of a table the file: `--set road=b.csv`. */
 struct override {
     const char *name;
     const char *value; /* NULL: value of the file, which may differ in other readings */
     bool as_time;      /* the input replaces the time (also in derivatives), which is the constant `now` */
     double now;
-    bool varies; /* its value will change in the next reading (patch.h) */
+    bool varies;            /* its value will change in the next reading (patch.h) */
+    struct input_call call; /* computes the input instead */
 };
 
 /* A model file as a tree of its YAML: constant once it is open, shareable by threads. Scenes with other

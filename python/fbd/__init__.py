@@ -17,6 +17,7 @@ from ._fit import Fit, Fitted
 from ._library import taken as _taken
 from ._library import text_at as _text_at
 from ._grade import Finding, Grade, Key
+from ._inputs import Now
 from ._linear import Linearization, Transfer
 from ._model import Model, check
 from ._notes import AccuracyNotReached, Error, Fix, Note, RunFailed, Warning
@@ -34,7 +35,7 @@ __version__: str = _text_at(_lib.fbd_version())
 __all__ = [
     "AccuracyNotReached", "Arrow", "Coordinate", "Cost", "CostPoint", "Cut", "Drift", "Effect", "Effects", "Energy",
     "Equation", "Equations", "Error", "Event", "Finding", "Fit", "Fitted", "Fix", "Found", "Gap", "Grade", "HandCheck", "Inertia", "Key", "Limit", "Linearization", "Mode", "Model",
-    "Note", "Parameter", "Progress", "Run", "RunFailed", "Section", "Solution", "State", "Statics", "Stats", "SweepTable", "Transfer", "Unbalanced",
+    "Note", "Now", "Parameter", "Progress", "Run", "RunFailed", "Section", "Solution", "State", "Statics", "Stats", "SweepTable", "Transfer", "Unbalanced",
     "assert_derivation", "check", "schema",
 ]
 

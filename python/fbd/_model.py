@@ -6,7 +6,7 @@ import json
 import os
 from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Tuple, Type, Union
 
-from . import _cost, _find, _fit, _run, _sweep
+from . import _cost, _find, _fit, _inputs, _run, _sweep
 from ._files import fmu_library, put
 from ._binding import ffi, lib
 from ._find import Found
@@ -119,6 +119,7 @@ class Model:
 
     def _begin(self, handle: Any, name: bytes, parameters: Mapping[str, Any]) -> None:
         self._model, self._parameters = handle, dict(parameters)
+        self._calls: Optional[_inputs.Calls] = None  # functions that compute inputs
         self._name = os.path.abspath(name)  # beside which a sweep looks for data files, wherever it is called
 
     # ---- what it is
@@ -155,8 +156,30 @@ class Model:
         listed = (lib.fbd_model_parameter(self._model, i) for i in range(lib.fbd_model_parameter_count(self._model)))
         return {text_at(struct.name): from_struct(Parameter, struct) for struct in listed}
 
+    def _read_again(self) -> bytes:
+        """The text of the file, for what reads it again, without functions for its inputs."""
+        if self._calls is not None:
+            raise TypeError("inputs by functions are not part of the file: write their laws into it, or run this model itself")
+        return self._source()
+
+    def with_inputs(self, inputs: Mapping[str, "_inputs.Function"]) -> "Model":
+        """This model, with some of its ``inputs`` computed by functions of the time [s] and the motion
+        (:class:`fbd.Now`), in the unit of the input, in every evaluation of the forces.
+
+        >>> model.with_inputs({"M": lambda t, now: -40 * now["pole.theta"] - 8 * now["pole.omega"]}).run()
+
+        A function must depend on its arguments only, and smoothly between the events of the file. Error bars hold for
+        the function as it is. What it raises ends the run, and is raised.
+        """
+        model = type(self).__new__(type(self))
+        calls = _inputs.Calls(self._model, inputs)
+        model._begin(calls.model, os.fsencode(self._name), self._parameters)
+        model._calls = calls
+        return model
+
     def __reduce__(self) -> Any:
         """A copy in another process reads the same text; data files of tables are read again."""
+        self._read_again()
         return _restored, (type(self), self._source(), self._name, self._parameters)
 
     def _seconds(self, value: Time, name: str) -> Optional[float]:
@@ -231,14 +254,15 @@ class Model:
     def run(self, *, until: Time = None, tolerance: Optional[float] = None, step: Time = None,
             method: Optional[str] = None, accuracy: Optional[float] = None, error_bars: bool = False,
             structure: bool = True, every: Time = None, ledger: bool = False, components: bool = False,
-            progress: Optional[Callable[[Progress], Any]] = None) -> Run:
+            progress: Optional[Callable[[Progress], Any]] = None,
+            inputs: Optional[Mapping[str, "_inputs.Function"]] = None) -> Run:
         """Run the model from t = 0 to its end.
 
         until: end time, in seconds or a text with a unit ("200 ms"), as step and every; tolerance: relative error of a step; step: a fixed step [s]; method: "auto",
         "rk8pd", ...; accuracy: the global accuracy to be delivered, whatever tolerance that takes; error_bars:
         estimate the global errors; structure: False integrates all bodies together; every: interval of the rows
         [s]; ledger: columns of each force, its work and the energies; components: with the components of each
-        force. What is not given is as in the file.
+        force; inputs: functions that compute inputs of the file (:meth:`with_inputs`). What is not given is as in the file.
 
         ``progress`` is called up to twenty times a second with an :class:`fbd.Progress`; what is true ends the
         run there, as "interrupted". Ctrl-C ends it with KeyboardInterrupt.
@@ -249,7 +273,8 @@ class Model:
         options: Dict[str, Any] = {"until": self._seconds(until, "until"), "tolerance": tolerance,
                                    "step": self._seconds(step, "step"), "method": method, "accuracy": accuracy,
                                    "error_bars": error_bars, "structure": structure}
-        return _run.start(self, progress, self._seconds(every, "every"), ledger, components, options)
+        model = self if inputs is None else self.with_inputs(inputs)
+        return _run.start(model, progress, self._seconds(every, "every"), ledger, components, options)
 
     def note(self, path: Union[str, "os.PathLike[str]"], *, date: Optional[str] = None, **options: Any) -> Run:
         """Run the model with error bars, and write its calculation note (:meth:`Run.note`). Options of :meth:`run`.
@@ -275,7 +300,7 @@ class Model:
         options: Dict[str, Any] = {"until": self._seconds(until, "until"), "tolerance": tolerance,
                                    "step": self._seconds(step, "step"), "method": method, "structure": structure}
         plan, kept = _sweep._plan(vary, outputs, zip, seed, self._parameters, options, find, statics, runs)
-        table = _sweep.sweep(self._source(), self._name, plan, whole(jobs, "jobs", 10000), progress)
+        table = _sweep.sweep(self._read_again(), self._name, plan, whole(jobs, "jobs", 10000), progress)
         del kept
         return table
 
@@ -292,7 +317,7 @@ class Model:
         """
         options: Dict[str, Any] = {"until": self._seconds(until, "until"), "tolerance": tolerance,
                                    "step": self._seconds(step, "step"), "method": method, "structure": structure}
-        return _find.find(self._source(), self._name, question, self._parameters, statics, runs, progress, options)
+        return _find.find(self._read_again(), self._name, question, self._parameters, statics, runs, progress, options)
 
     def fit(self, data: Data, parameters: Union[str, Sequence[str]] = (), *, tolerance: Optional[float] = None,
             step: Optional[float] = None, method: Optional[str] = None, structure: bool = True,
@@ -307,7 +332,7 @@ class Model:
         the fit with :class:`fbd.Error`.
         """
         options: Dict[str, Any] = {"tolerance": tolerance, "step": step, "method": method, "structure": structure}
-        return _fit.fit(self._source(), self._name, data, parameters, self._parameters, progress, options)
+        return _fit.fit(self._read_again(), self._name, data, parameters, self._parameters, progress, options)
 
     # ---- for other programs
 
@@ -322,6 +347,7 @@ class Model:
             tolerance: Optional[float] = None, step: Time = None, method: Optional[str] = None, structure: bool = True) -> None:
         """Write the model as a Functional Mock-up Unit (docs/fmi.md), of FMI 3.0 or 2.0. :class:`fbd.Error` with the id
         `no-fmu` where the module was built without the binary for it."""
+        self._read_again()
         library = fmu_library()
         settings, count, kept = settings_of(self._parameters)
         options, name = run_options(until=self._seconds(until, "until"), tolerance=tolerance,

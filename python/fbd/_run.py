@@ -292,6 +292,7 @@ class Run(Mapping[str, Column]):
         if not live:
             return taken(checked(lib.fbd_result_html, result))
         model, made_with = self._made_by
+        model._read_again()
         settings, count, kept = settings_of(dict(model._parameters))
         options, name = run_options(**made_with["options"])
         chosen = ffi.new("fbd_live_options *", {"settings": settings, "setting_count": count, "run": options})
@@ -359,8 +360,12 @@ def start(model: Any, progress: Optional[Callable[[Progress], Any]], every: Opti
     """Make a run of a model, and judge it."""
     chosen, name = run_options(**options)
     interval = 0.0 if every is None else positive(every, "every")
-    run = Run(model._model, chosen, interval, Watch(progress), model.title, ledger=bool(ledger),
-              components=bool(components))
+    try:
+        run = Run(model._model, chosen, interval, Watch(progress, model._calls), model.title, ledger=bool(ledger),
+                  components=bool(components))
+    finally:
+        if model._calls is not None:
+            model._calls.end()
     run._made_by = model, {"every": every, "ledger": ledger, "components": components, "options": options}
     del name
     run._judge()

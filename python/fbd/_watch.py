@@ -13,16 +13,18 @@ class Watch:
     """Asked from within a run, twenty times a second. Signals are handled then, as between any two lines of
     Python; what is raised ends the run, and is raised again by :meth:`end`."""
 
-    def __init__(self, progress: Optional[Callable[[Progress], Any]] = None):
+    def __init__(self, progress: Optional[Callable[[Progress], Any]] = None, calls: Any = None):
         if progress is not None and not callable(progress):
             raise TypeError("progress must be callable")
-        self._progress = progress
+        self._progress, self._calls = progress, calls  # of a model with inputs by functions: one that failed ends the run
         self.failure: Optional[BaseException] = None
         self._handle = ffi.new_handle(self)
         self.context = ffi.new("glue_watch *", {"handle": self._handle})
         self.function = ffi.addressof(lib, "glue_watch_run")
 
     def ask(self, progress: Any) -> int:
+        if self._calls is not None and self._calls.failed():
+            return 1
         if self._progress is None:
             return 0
         return 1 if self._progress(from_struct(Progress, progress[0])) else 0

@@ -308,6 +308,8 @@ static void results(void **context)
     REFUSES(fbd_model_controls, !fbd_model_controls(NULL, errors));
     REFUSES(fbd_model_without, !fbd_model_without(NULL, NULL, 0, errors));
     REFUSES(fbd_model_without, !fbd_model_without(model, NULL, 1, errors));
+    REFUSES(fbd_model_with_callbacks, !fbd_model_with_callbacks(NULL, NULL, 0, errors));
+    REFUSES(fbd_model_with_callbacks, !fbd_model_with_callbacks(model, NULL, 1, errors));
     char *no_notes = fbd_errors_json(NULL);
     ANSWERS(fbd_errors_json, no_notes && strcmp(no_notes, "[]") == 0);
     fbd_free(no_notes);

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Inputs by functions in Python, compared with the same laws written in the file."""
+import math
+import pickle
+import threading
+
+import fbd
+import numpy as np
+import pytest
+
+POLE = """
+fbd: 1
+title: A pole held upright
+inputs: {M: 0 N*m}
+bodies:
+  pole:
+    motion: {pivot: {at: [0, 0]}}
+    parts: {rod: {shape: rod, mass: 2 kg, from: [0, 0], to: [0, 1 m]}}
+    initial: {theta: 10 deg}
+    forces: [gravity]
+    moments: [applied: {name: motor, value: "LAW"}]
+simulate: {until: 3 s, events: [{name: half, when: 'theta = 5 deg'}]}
+"""
+LAW = "-40[N*m]*theta - 8[N*m*s]*omega"
+
+
+def pd(t, now):
+    return -40 * now["pole.theta"] - 8 * now["omega"]
+
+
+def of_file():
+    return fbd.Model.parse(POLE.replace("LAW", LAW).replace("inputs: {M: 0 N*m}\n", ""))
+
+
+def with_input():
+    return fbd.Model.parse(POLE.replace("LAW", "M"))
+
+
+def test_a_function_moves_the_pole_as_its_law_does():
+    want, got = of_file().run(ledger=True), with_input().run(ledger=True, inputs={"M": pd})
+    assert [event.name for event in got.events] == [event.name for event in want.events] == ["half"]
+    assert got.events[0].t == pytest.approx(want.events[0].t, abs=1e-8)
+    for name in ("pole.theta", "pole.omega", "pole.motor"):
+        assert got.at(1.3)["theta"] == pytest.approx(want.at(1.3)["theta"], abs=1e-8)
+        assert got[name][-1] == pytest.approx(want[name][-1], abs=1e-7)
+    assert got.work("pole", "motor") == pytest.approx(want.work("pole", "motor"), abs=1e-7)
+
+
+def test_the_report_says_that_the_input_is_from_outside():
+    run = with_input().run(inputs={"M": pd}, error_bars=True)
+    assert "an input by a callback of the program" in run.report()
+    assert run.stats.error_estimate < 1e-7
+    assert '"M": null' in run.json()
+    assert math.isnan(with_input().with_inputs({"M": pd}).parameters["M"].value)
+
+
+def test_it_is_a_model_with_equations_and_a_closed_loop():
+    model = with_input().with_inputs({"M": pd})
+    assert model.equations(theta=0.5, omega=0.25)["pole.theta"].terms["motor"] == -40 * 0.5 - 8 * 0.25
+    np.testing.assert_allclose(model.linearize(theta=0).A[1], of_file().linearize(theta=0).A[1], rtol=1e-9)
+
+
+def test_what_a_function_raises_is_raised():
+    def late(t, now):
+        if t > 1:
+            raise ZeroDivisionError("late")
+        return 0.0
+
+    with pytest.raises(ZeroDivisionError, match="late"):
+        with_input().run(inputs={"M": late})
+    with pytest.raises(KeyError, match="did you mean `pole.theta`"):
+        with_input().run(inputs={"M": lambda t, now: now["pole.thetta"]})
+    with pytest.raises(TypeError):
+        with_input().run(inputs={"M": lambda t, now: "two"})
+
+
+def test_what_reads_the_file_again_refuses_functions():
+    model = with_input().with_inputs({"M": pd})
+    with pytest.raises(TypeError, match="not part of the file"):
+        pickle.dumps(model)
+    with pytest.raises(TypeError, match="not part of the file"):
+        model.sweep({"M": [1, 2]})
+    with pytest.raises(fbd.Error) as raised:
+        model.emit_c()
+    assert raised.value.id == "cannot-emit"
+
+
+def test_wrong_inputs_are_refused_by_name():
+    with pytest.raises(fbd.Error) as raised:
+        with_input().run(inputs={"N": pd})
+    assert raised.value.id == "unknown-input"
+    with pytest.raises(TypeError):
+        with_input().run(inputs={"M": 3})
+    with pytest.raises(TypeError):
+        with_input().run(inputs=[pd])
+
+
+def test_the_motion_of_a_call_ends_with_it():
+    kept = []
+
+    def keep(t, now):
+        kept.append(now)
+        assert len(now) == 2 and list(now) == ["pole.theta", "pole.omega"]
+        return 0.0
+
+    with_input().run(until=0.1, inputs={"M": keep})
+    with pytest.raises(RuntimeError):
+        kept[0]["theta"]
+
+
+def test_threads_run_one_model():
+    model, ends = with_input().with_inputs({"M": pd}), []
+    threads = [threading.Thread(target=lambda: ends.append(model.run()["pole.theta"][-1])) for _ in range(3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(ends) == 3 and len(set(ends)) == 1
