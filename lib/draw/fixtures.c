@@ -35,14 +35,16 @@ static bool on_ground(const struct panel *panel)
 
 /* ---- the body */
 
-/* Avoid both edges of a bar. */
+/* Avoid both edges of a bar, which has round ends. */
 static void avoid_bar(struct panel *panel, struct vec from, struct vec to)
 {
     const double half_width = 1.3;
     struct vec d = vec_sub(to, from);
     const double length = vec_norm(d);
     if (length == 0) return;
-    struct vec side = vec_scale(half_width / length, vec_perp(d));
+    const struct vec end = vec_scale(half_width / length, d), side = vec_perp(end);
+    from = vec_sub(from, end);
+    to = vec_add(to, end);
     labelling_avoid(&panel->labels, vec_add(from, side), vec_add(to, side), on_outline);
     labelling_avoid(&panel->labels, vec_sub(from, side), vec_sub(to, side), on_outline);
 }
@@ -113,8 +115,8 @@ static void draw_plate(struct panel *panel)
         take_part(panel, &disc);
         struct vec hub = panel_point(panel, panel_place(panel, plate->hub)),
                    spoke = panel_direction((struct vec){panel->pose.cosine, panel->pose.sine});
-        svg_line(&panel->under, "thread", hub,
-                 vec_add(hub, vec_scale(plate->wheel * panel->millimetres, spoke)));
+        panel_line(panel, "thread", hub, vec_add(hub, vec_scale(plate->wheel * panel->millimetres, spoke)),
+                   on_outline);
     } else if (plate->count == 2) {
         fbd_shape bar = {.kind = FBD_SHAPE_BAR,
                          .corner_count = 2,
@@ -190,7 +192,8 @@ void panel_body(struct panel *panel)
         struct vec axis = panel_point(panel, panel_place(panel, vec_of(panel->body.pin)));
         for (size_t i = 0; i < shapes; i++) {
             fbd_shape part = fbd_model_shape(panel->model, panel->index, i);
-            panel_line(panel, "thread", axis, panel_point(panel, panel_place(panel, vec_of(part.center))), 2);
+            panel_line(panel, "thread", axis, panel_point(panel, panel_place(panel, vec_of(part.center))),
+                       on_outline);
         }
     }
     struct vec low, high;

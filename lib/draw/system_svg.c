@@ -169,10 +169,10 @@ static void zigzag(struct panel *pen, struct vec from, struct vec to)
         const double share = lead + (1 - 2 * lead) * i / turns;
         const double sign = i == 0 || i == turns ? 0 : i % 2 ? 1 : -1;
         const struct vec next = vec_add(vec_add(from, vec_scale(share, way)), vec_scale(sign, side));
-        panel_line(pen, "thread", last, next, 4);
+        panel_line(pen, "thread", last, next, on_outline);
         last = next;
     }
-    panel_line(pen, "thread", last, to, 4);
+    panel_line(pen, "thread", last, to, on_outline);
 }
 
 /* A cylinder open to one end, with a piston in it. */
@@ -184,12 +184,13 @@ static void dashpot(struct panel *pen, struct vec from, struct vec to)
     const struct vec u = vec_scale(1 / length, way), n = vec_scale(half, vec_perp(u)),
                      middle = vec_add(from, vec_scale(0.5, way)), base = vec_sub(middle, vec_scale(3, u)),
                      open = vec_add(middle, vec_scale(3, u));
-    panel_line(pen, "thread", from, base, 4);
-    panel_line(pen, "thread", vec_sub(base, n), vec_add(base, n), 4);
-    panel_line(pen, "thread", vec_sub(base, n), vec_sub(open, n), 4);
-    panel_line(pen, "thread", vec_add(base, n), vec_add(open, n), 4);
-    panel_line(pen, "thread", vec_sub(middle, vec_scale(0.8, n)), vec_add(middle, vec_scale(0.8, n)), 4);
-    panel_line(pen, "thread", middle, to, 4);
+    panel_line(pen, "thread", from, base, on_outline);
+    panel_line(pen, "thread", vec_sub(base, n), vec_add(base, n), on_outline);
+    panel_line(pen, "thread", vec_sub(base, n), vec_sub(open, n), on_outline);
+    panel_line(pen, "thread", vec_add(base, n), vec_add(open, n), on_outline);
+    panel_line(pen, "thread", vec_sub(middle, vec_scale(0.8, n)), vec_add(middle, vec_scale(0.8, n)),
+               on_outline);
+    panel_line(pen, "thread", middle, to, on_outline);
 }
 
 static void wall(struct panel *pen, struct vec at, struct vec into)
@@ -304,7 +305,7 @@ static void draw_links(struct figure *figure, const fbd_coupling *coupling, size
             svg_circle(&figure->pen->under, "body", center, radius);
             take_circle(&figure->pen->extent, center, radius);
         }
-        if (k > 0) panel_line(figure->pen, "thread", last, first, 4);
+        if (k > 0) panel_line(figure->pen, "thread", last, first, on_outline);
         if (end.body < 0 && !(end.radius > 0)) draw_anchor(figure, coupling, center);
         last = leaves;
     }
