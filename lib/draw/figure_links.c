@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * What joins the bodies of the figure of the system: springs and dampers, ropes, rods, the ground under contacts;
+ * and the applied forces.
+ */
+#include <string.h>
+
+#include "draw/figure.h"
+
+static const double pi = 3.141592653589793, wall_distance = 26, force_length = 15, drum_radius = 4;
+
+/* ---- springs and dampers */
+
+static void zigzag(struct panel *pen, struct vec from, struct vec to)
+{
+    enum { turns = 12 };
+    const struct vec way = vec_sub(to, from);
+    const double length = vec_norm(way), lead = 0.15;
+    if (!(length > 0)) return;
+    const struct vec side = vec_scale(1.8 / length, vec_perp(way));
+    struct vec last = from;
+    for (int i = 0; i <= turns; i++) {
+        const double share = lead + (1 - 2 * lead) * i / turns;
+        const double sign = i == 0 || i == turns ? 0 : i % 2 ? 1 : -1;
+        const struct vec next = vec_add(vec_add(from, vec_scale(share, way)), vec_scale(sign, side));
+        panel_line(pen, "thread", last, next, on_outline);
+        last = next;
+    }
+    panel_line(pen, "thread", last, to, on_outline);
+}
+
+/* A cylinder open to one end, with a piston in it. */
+static void dashpot(struct panel *pen, struct vec from, struct vec to)
+{
+    const struct vec way = vec_sub(to, from);
+    const double length = vec_norm(way), half = 1.8;
+    if (!(length > 0)) return;
+    const struct vec u = vec_scale(1 / length, way), n = vec_scale(half, vec_perp(u)),
+                     middle = vec_add(from, vec_scale(0.5, way)), base = vec_sub(middle, vec_scale(3, u)),
+                     open = vec_add(middle, vec_scale(3, u));
+    panel_line(pen, "thread", from, base, on_outline);
+    panel_line(pen, "thread", vec_sub(base, n), vec_add(base, n), on_outline);
+    panel_line(pen, "thread", vec_sub(base, n), vec_sub(open, n), on_outline);
+    panel_line(pen, "thread", vec_add(base, n), vec_add(open, n), on_outline);
+    panel_line(pen, "thread", vec_sub(middle, vec_scale(0.8, n)), vec_add(middle, vec_scale(0.8, n)),
+               on_outline);
+    panel_line(pen, "thread", middle, to, on_outline);
+}
+
+static void wall(struct panel *pen, struct vec at, struct vec into)
+{
+    const struct vec side = vec_scale(5, vec_perp(into));
+    panel_hatched_line(pen, vec_sub(at, side), vec_add(at, side), into);
+}
+
+/* The letter or the value of a stiffness or damping coefficient. */
+static void name_spring(struct figure *figure, const fbd_spring *spring, struct vec from, struct vec to)
+{
+    const fbd_units units = fbd_model_units(figure->model);
+    const struct node *entry =
+        letters_entry(&figure->letters, fbd_model_body_name(figure->model, (size_t)spring->body),
+                      spring->name);
+    const char *unit = arena_printf(&figure->arena, spring->damper ? "%s*s/%s" : "%s/%s", units.force,
+                                    units.length),
+               *text = unit ? letters_text(&figure->letters, entry,
+                                           spring->damper ? "coefficient" : "stiffness", NAN, unit)
+                            : NULL;
+    const struct vec way = vec_sub(to, from), side = vec_scale(1 / vec_norm(way), vec_perp(way));
+    if (text)
+        labelling_add(&figure->pen->labels, text, label_size, vec_scale(0.5, vec_add(from, to)), side, 2.6);
+}
+
+static void draw_spring(struct figure *figure, size_t index)
+{
+    const fbd_spring spring = fbd_view_spring(figure->view, index);
+    struct panel *pen = figure->pen;
+    struct vec from = figure_point(figure, spring.body, spring.point), to;
+    const bool grounded = spring.partner < 0, placed = !isnan(spring.anchor[0]);
+    if (placed) {
+        to = figure_point(figure, spring.partner, spring.anchor);
+    } else { /* a wall behind the body, beside that of an earlier one */
+        const struct vec e = panel_direction(vec_of(figure->panels[spring.body].pose.along));
+        from = vec_add(from, vec_scale(index % 2 ? 3 : -3, vec_perp(e)));
+        to = vec_sub(from, vec_scale(wall_distance, e));
+    }
+    const struct vec way = vec_sub(to, from);
+    if (!(vec_norm(way) > 0)) return;
+    (spring.damper ? dashpot : zigzag)(pen, from, to);
+    name_spring(figure, &spring, from, to);
+    if (grounded) wall(pen, to, vec_scale(1 / vec_norm(way), way));
+}
+
+/* ---- couplings */
+
+/* The ground under a rolling circle or a contact. */
+struct strip {
+    bool there;
+    struct vec foot, e, n; /* below the body, along the ground and out of it, in the world */
+    double reach;          /* to each side, on paper */
+};
+
+static struct strip strip_of(const struct figure *figure, size_t index)
+{
+    const fbd_coupling coupling = fbd_view_coupling(figure->view, index);
+    if (!coupling.lined) return (struct strip){.there = false};
+    const fbd_coupling_end end = fbd_view_coupling_end(figure->view, index, 0),
+                           line = fbd_view_coupling_end(figure->view, index, 1);
+    if (line.body >= 0 || end.body < 0) return (struct strip){.there = false};
+    const struct vec e = vec_unit(coupling.angle), n = vec_scale(coupling.side, vec_perp(e)),
+                     center = figure_place(figure, end.body, end.point);
+    const double high = vec_dot(n, vec_sub(center, vec_of(line.point)));
+    const struct vec foot = vec_sub(center, vec_scale(high, n)),
+                     touch = end.place_count > 0 ? vec_of(end.places[0]) : foot;
+    const double far = fmax(fabs(end.radius), fabs(vec_dot(e, vec_sub(touch, foot))));
+    return (struct strip){
+        .there = true, .foot = foot, .e = e, .n = n, .reach = fmax(30, far * figure->pen->millimetres + 20)};
+}
+
+/* True if both are on one side of one line. */
+static bool on_one_line(const struct figure *figure, const struct strip *a, const struct strip *b)
+{
+    const double off = vec_dot(a->n, vec_sub(b->foot, a->foot)) * figure->pen->millimetres;
+    return a->there && b->there && fabs(vec_cross(a->e, b->e)) < 1e-9 && vec_dot(a->n, b->n) > 0 &&
+           fabs(off) < 0.05;
+}
+
+/* Draw the ground under all bodies on one line, once. */
+static void draw_line(struct figure *figure, size_t index)
+{
+    struct panel *pen = figure->pen;
+    const struct strip strip = strip_of(figure, index);
+    double low = 0, high = 0;
+    for (size_t i = 0; i < fbd_view_coupling_count(figure->view); i++) {
+        const struct strip other = strip_of(figure, i);
+        if (!on_one_line(figure, &strip, &other)) continue;
+        if (i < index) return;
+        const double at = vec_dot(strip.e, vec_sub(other.foot, strip.foot)) * pen->millimetres;
+        low = fmin(low, at - other.reach);
+        high = fmax(high, at + other.reach);
+    }
+    if (!strip.there) return;
+    const struct vec foot = panel_point(pen, strip.foot), e = panel_direction(strip.e),
+                     from = vec_add(foot, vec_scale(low, e)), to = vec_add(foot, vec_scale(high, e));
+    panel_hatched_line(pen, from, to, vec_scale(-1, panel_direction(strip.n)));
+    if (fabs(strip.e.x * strip.e.y) < 1e-9) return;
+    const bool rises = strip.e.y > 0;
+    panel_slope(pen, rises ? from : to, rises ? strip.e : vec_scale(-1, strip.e));
+}
+
+/* A point of the ground that a rod, rope or belt ends at: a drum where the length of the rope changes. */
+static void draw_anchor(struct figure *figure, const fbd_coupling *coupling, struct vec at)
+{
+    struct panel *pen = figure->pen;
+    if (strcmp(coupling->kind, "rope") == 0 && coupling->length == 0) {
+        svg_circle(&pen->under, "body", at, drum_radius);
+        svg_circle(&pen->under, "hole", at, 0.8);
+        box_take_circle(&pen->extent, at, drum_radius);
+    } else if (strcmp(coupling->kind, "rod") == 0) {
+        panel_bearing(pen, at, 1);
+        svg_circle(&pen->under, "hole", at, 1.1);
+    } else {
+        wall(pen, at, (struct vec){0, -1});
+    }
+}
+
+/* A rod, rope or belt: lines between the places where it acts. */
+static void draw_links(struct figure *figure, const fbd_coupling *coupling, size_t index)
+{
+    struct vec last = {0, 0};
+    for (size_t k = 0; k < coupling->end_count; k++) {
+        const fbd_coupling_end end = fbd_view_coupling_end(figure->view, index, k);
+        struct vec center = figure_point(figure, end.body, end.point), first = center, leaves = center;
+        if (end.place_count > 0) first = leaves = figure_place_of(figure, end.body, end.places[0]);
+        if (end.place_count > 1) leaves = figure_place_of(figure, end.body, end.places[1]);
+        if (end.radius > 0 && end.body < 0) {
+            const double radius = end.radius * figure->pen->millimetres;
+            svg_circle(&figure->pen->under, "body", center, radius);
+            box_take_circle(&figure->pen->extent, center, radius);
+        }
+        if (k > 0) panel_line(figure->pen, "thread", last, first, on_outline);
+        if (end.body < 0 && !(end.radius > 0)) draw_anchor(figure, coupling, center);
+        last = leaves;
+    }
+}
+
+static void draw_coupling(struct figure *figure, size_t index)
+{
+    const fbd_coupling coupling = fbd_view_coupling(figure->view, index);
+    if (coupling.lined)
+        draw_line(figure, index);
+    else if (strcmp(coupling.kind, "rod") == 0 || strcmp(coupling.kind, "rope") == 0)
+        draw_links(figure, &coupling, index);
+    else if (strcmp(coupling.kind, "pin") == 0) {
+        const fbd_coupling_end end = fbd_view_coupling_end(figure->view, index, 0);
+        const struct vec at = figure_point(figure, end.body, end.point);
+        if (fbd_view_coupling_end(figure->view, index, 1).body < 0) panel_bearing(figure->pen, at, 1);
+        svg_circle(&figure->pen->under, "hole", at, 1.1);
+    }
+}
+
+/* ---- applied forces */
+
+static void draw_force(struct figure *figure, const fbd_force *force, struct vec lift)
+{
+    struct panel *pen = figure->pen;
+    const struct vec f = {force->arrow.fx, -force->arrow.fy};
+    const double size = vec_norm(f);
+    if (strcmp(force->kind, "applied") != 0 || !(size > 0)) return;
+    const struct vec u = vec_scale(1 / size, f),
+                     tail = panel_point(pen, vec_add((struct vec){force->arrow.x, force->arrow.y}, lift)),
+                     tip = vec_add(tail, vec_scale(force_length, u)), back = vec_sub(tip, vec_scale(2.4, u)),
+                     side = vec_scale(1, vec_perp(u)),
+                     head[] = {tip, vec_add(back, side), vec_sub(back, side)};
+    text_add(&pen->under, "<g class=\"applied\">\n");
+    panel_line(pen, "shaft", tail, back, 8);
+    svg_polygon(&pen->under, "head", head, 3);
+    text_add(&pen->under, "</g>\n");
+    box_take(&pen->extent, tip);
+    panel_note(pen, panel_indexed(&figure->arena, force->symbol), tip, u);
+}
+
+/* A moment is an arc over the axis or the centre of mass. */
+static void draw_moment(struct figure *figure, const struct panel *panel, const fbd_force *force)
+{
+    enum { corners = 16 };
+    struct panel *pen = figure->pen;
+    const double couple = force->arrow.couple, radius = 9, below = 0.5, half = pi / 2 + below;
+    if (strcmp(force->kind, "applied") != 0 || !force->moment || !isfinite(couple) || couple == 0) return;
+    const bool pivot = panel->body.motion == FBD_MOTION_PIVOT;
+    const struct vec axis = panel_point(pen, panel_place(panel, pivot ? vec_of(panel->body.pin) : panel->G));
+    const struct panel_arrow arrow = {.tail = axis,
+                                      .radius = radius,
+                                      .start = pi / 2 - copysign(half, couple),
+                                      .sweep = copysign(2 * half, couple)};
+    text_add(&pen->under, "<g class=\"applied\">\n");
+    panel_write_arc(&pen->under, &arrow);
+    text_add(&pen->under, "</g>\n");
+    box_take_circle(&pen->extent, axis, radius);
+    struct vec last = axis;
+    for (int i = 0; i <= corners; i++) {
+        const struct vec u = panel_direction(vec_unit(arrow.start + arrow.sweep * i / corners)),
+                         next = vec_add(axis, vec_scale(radius, u));
+        if (i > 0) labelling_avoid(&pen->labels, last, next, 8);
+        last = next;
+    }
+    panel_note(pen, panel_indexed(&figure->arena, force->symbol), vec_sub(axis, (struct vec){0, radius}),
+               (struct vec){0, -1});
+}
+
+void figure_links(struct figure *figure)
+{
+    for (size_t i = 0; i < fbd_view_spring_count(figure->view); i++) draw_spring(figure, i);
+    for (size_t i = 0; i < fbd_view_coupling_count(figure->view); i++) draw_coupling(figure, i);
+}
+
+void figure_forces(struct figure *figure)
+{
+    for (size_t b = 0; b < figure->count; b++)
+        for (size_t i = 0; i < figure->panels[b].force_count; i++) {
+            draw_force(figure, &figure->panels[b].forces[i], figure->panels[b].lift);
+            draw_moment(figure, &figure->panels[b], &figure->panels[b].forces[i]);
+        }
+}
