@@ -9,6 +9,9 @@
 #include "draw/letters.h"
 #include "draw/panel.h"
 
+/* Length of a spring or damper to a wall without a position in the file, on paper [mm]. */
+static const double wall_distance = 26;
+
 struct figure {
     struct arena arena;
     const fbd_model *model;
@@ -46,6 +49,9 @@ static inline void box_take_circle(struct box *box, struct vec center, double ra
 
 /* Draw the springs and dampers, and the couplings and the ground under contacts: beneath the bodies. */
 void figure_links(struct figure *figure);
+
+/* Draw belts, teeth, racks and grooves: in front of the bodies. */
+void figure_links_over(struct figure *figure);
 
 /* Draw the applied forces and moments of all bodies. */
 void figure_forces(struct figure *figure);

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * What joins the bodies of the figure of the system: springs and dampers, ropes, rods, the ground under contacts;
- * and the applied forces.
+ * Connections of the bodies in the figure of the system: springs and dampers, ropes, rods, the ground under
+ * contacts; and the applied forces.
  */
 #include <string.h>
 
 #include "draw/figure.h"
 
-static const double pi = 3.141592653589793, wall_distance = 26, force_length = 15, drum_radius = 4;
+static const double pi = 3.141592653589793, force_length = 15, drum_radius = 4;
 
 /* ---- springs and dampers */
 
@@ -183,6 +183,101 @@ static void draw_links(struct figure *figure, const fbd_coupling *coupling, size
     }
 }
 
+/* Both strands of a belt: between the places of the view, and their mirror images at the line of centres. */
+static void draw_belt(struct figure *figure, size_t index)
+{
+    struct vec centers[2], touched[2];
+    for (size_t k = 0; k < 2; k++) {
+        const fbd_coupling_end end = fbd_view_coupling_end(figure->view, index, k);
+        centers[k] = figure_point(figure, end.body, end.point);
+        touched[k] = end.place_count > 0 ? figure_place_of(figure, end.body, end.places[0]) : centers[k];
+    }
+    const struct vec way = vec_sub(centers[1], centers[0]), unit = vec_scale(1 / vec_norm(way), way);
+    struct vec mirrored[2];
+    for (int k = 0; k < 2; k++) {
+        const struct vec out = vec_sub(touched[k], centers[k]);
+        mirrored[k] = vec_add(centers[k], vec_sub(vec_scale(2 * vec_dot(out, unit), unit), out));
+    }
+    if (!(vec_norm(way) > 0)) return;
+    panel_line(figure->pen, "thread", touched[0], touched[1], on_outline);
+    panel_line(figure->pen, "thread", mirrored[0], mirrored[1], on_outline);
+}
+
+/* Teeth as short lines across the pitch circle, whose distance is the same on both wheels; on the inside of a ring
+ * gear. */
+static void draw_teeth(struct figure *figure, size_t index)
+{
+    enum { fewest = 12, most = 400 };
+    const fbd_coupling_end ends[] = {fbd_view_coupling_end(figure->view, index, 0),
+                                     fbd_view_coupling_end(figure->view, index, 1)};
+    const double least = fmin(fabs(ends[0].radius), fabs(ends[1].radius));
+    for (int k = 0; k < 2 && least > 0; k++) {
+        const struct vec center = figure_point(figure, ends[k].body, ends[k].point);
+        const double radius = fabs(ends[k].radius) * figure->pen->millimetres,
+                     teeth = fmin(most, round(fewest * fabs(ends[k].radius) / least));
+        for (int i = 0; i < (int)teeth; i++) {
+            const struct vec u = vec_unit(2 * pi * i / teeth);
+            svg_line(&figure->pen->under, "thread", vec_add(center, vec_scale(radius - 0.9, u)),
+                     vec_add(center, vec_scale(radius + 0.9, u)));
+        }
+        box_take_circle(&figure->pen->extent, center, radius + 0.9);
+    }
+}
+
+/* A rack on a body: the line that touches the wheel, with teeth at a twelfth of its circumference. */
+static void draw_rack(struct figure *figure, size_t index)
+{
+    const fbd_coupling coupling = fbd_view_coupling(figure->view, index);
+    const fbd_coupling_end wheel = fbd_view_coupling_end(figure->view, index, 0),
+                           line = fbd_view_coupling_end(figure->view, index, 1);
+    if (line.body < 0 || wheel.place_count == 0) return;
+    struct panel *pen = figure->pen;
+    const double radius = fabs(wheel.radius) * pen->millimetres, pitch = pi * radius / 6, half = 2.5 * pitch;
+    const struct vec touched = figure_place_of(figure, wheel.body, wheel.places[0]),
+                     out = vec_sub(touched, figure_point(figure, wheel.body, wheel.point)),
+                     n = vec_scale(0.9 / vec_norm(out), out), e = vec_perp(vec_scale(1 / vec_norm(out), out));
+    if (!(vec_norm(out) > 0) || !coupling.lined) return;
+    panel_line(pen, "thread", vec_sub(touched, vec_scale(half, e)), vec_add(touched, vec_scale(half, e)),
+               on_outline);
+    for (int i = -2; i <= 2; i++) {
+        const struct vec at = vec_add(touched, vec_scale(i * pitch, e));
+        panel_line(pen, "thread", vec_sub(at, n), vec_add(at, n), on_outline);
+    }
+}
+
+/* A straight groove at its pin; a curved one has no line in the view. */
+static void draw_groove(struct figure *figure, size_t index)
+{
+    const double half = 13, wide = 1.7;
+    const fbd_coupling coupling = fbd_view_coupling(figure->view, index);
+    const fbd_coupling_end pin = fbd_view_coupling_end(figure->view, index, 0),
+                           groove = fbd_view_coupling_end(figure->view, index, 1);
+    const struct node *entry = letters_entry(&figure->letters, "", coupling.name);
+    if (!entry || node_find(entry, "x")) return;
+    const double turned = groove.body < 0 ? 0 : figure->panels[groove.body].pose.angle;
+    const struct vec at = figure_point(figure, pin.body, pin.point),
+                     e = panel_direction(vec_unit(coupling.angle + turned)), end = vec_scale(half, e),
+                     side = vec_scale(wide, vec_perp(e));
+    struct panel *pen = figure->pen;
+    for (int sign = -1; sign <= 1; sign += 2) {
+        const struct vec middle = vec_add(at, vec_scale(sign, side));
+        panel_line(pen, "thread", vec_sub(middle, end), vec_add(middle, end), on_outline);
+        panel_line(pen, "thread", vec_sub(vec_add(at, vec_scale(sign, end)), side),
+                   vec_add(vec_add(at, vec_scale(sign, end)), side), on_outline);
+    }
+    svg_circle(&pen->under, "hole", at, 1.1);
+}
+
+/* Draw a coupling that is seen in front of its bodies. */
+static void draw_coupling_over(struct figure *figure, size_t index)
+{
+    const char *kind = fbd_view_coupling(figure->view, index).kind;
+    if (strcmp(kind, "belt") == 0) draw_belt(figure, index);
+    if (strcmp(kind, "gear") == 0) draw_teeth(figure, index);
+    if (strcmp(kind, "rack") == 0) draw_rack(figure, index);
+    if (strcmp(kind, "slot") == 0) draw_groove(figure, index);
+}
+
 static void draw_coupling(struct figure *figure, size_t index)
 {
     const fbd_coupling coupling = fbd_view_coupling(figure->view, index);
@@ -251,6 +346,11 @@ void figure_links(struct figure *figure)
 {
     for (size_t i = 0; i < fbd_view_spring_count(figure->view); i++) draw_spring(figure, i);
     for (size_t i = 0; i < fbd_view_coupling_count(figure->view); i++) draw_coupling(figure, i);
+}
+
+void figure_links_over(struct figure *figure)
+{
+    for (size_t i = 0; i < fbd_view_coupling_count(figure->view); i++) draw_coupling_over(figure, i);
 }
 
 void figure_forces(struct figure *figure)

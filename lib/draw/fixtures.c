@@ -153,7 +153,8 @@ static void draw_sizeless(struct panel *panel)
         edge(panel, corners, 4);
         return;
     }
-    if (panel->body.motion == FBD_MOTION_PIVOT) return; /* the bearing shows its position */
+    if (panel->body.motion == FBD_MOTION_PIVOT && !(panel->joined && panel_fixtures_in_front(panel)))
+        return; /* the bearing shows its position */
     if (panel->body.motion != FBD_MOTION_SLIDE) {
         bool point = panel->body.motion == FBD_MOTION_PARTICLE || panel->body.motion == FBD_MOTION_TRACK;
         const double radius = point ? dot_radius : conventional_disc;

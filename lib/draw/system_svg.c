@@ -75,6 +75,9 @@ static bool is_sizeless(const struct panel *panel)
     return panel->body.motion == FBD_MOTION_SLIDE && !panel->shaped;
 }
 
+/* Distance on paper below which blocks are drawn beside each other instead of smaller [mm]. */
+static const double at_one_place = 0.1;
+
 /* The share of their conventional size that blocks have, so that those beside each other do not overlap: their
  * width is at most `apart` of the distance. Bodies at one place would overlap at any size. */
 static double share_of(const struct figure *figure, double millimetres)
@@ -89,17 +92,48 @@ static double share_of(const struct figure *figure, double millimetres)
                 continue;
             const double distance =
                 millimetres * vec_norm(vec_sub(vec_of(one->pose.G), vec_of(other->pose.G)));
-            if (distance > 1e-6) share = fmin(share, apart * distance / width);
+            if (distance > at_one_place) share = fmin(share, apart * distance / width);
         }
     return fmax(share, least);
 }
 
-/* How far a body is moved from its place in the scene: one that slides on a surface of a sliding body stands on
- * top of it, and carries along those on it. */
+static bool are_joined(const struct figure *figure, size_t a, size_t b)
+{
+    for (size_t i = 0; i < fbd_view_spring_count(figure->view); i++) {
+        const fbd_spring spring = fbd_view_spring(figure->view, i);
+        if ((spring.body == (int)a && spring.partner == (int)b) ||
+            (spring.body == (int)b && spring.partner == (int)a))
+            return true;
+    }
+    return false;
+}
+
+/* Blocks that start at one place are drawn beside each other: those that a spring joins along their line, others
+ * across it; to the right or downwards. */
+static struct vec aside_of(const struct figure *figure, size_t body)
+{
+    const struct panel *panel = &figure->panels[body];
+    struct vec aside = {0, 0};
+    for (size_t a = 0; a < body && is_sizeless(panel); a++) {
+        const struct panel *other = &figure->panels[a];
+        const double distance = vec_norm(vec_sub(vec_of(panel->pose.G), vec_of(other->pose.G)));
+        if (!is_sizeless(other) || other->body.carrier >= 0 || distance * panel->millimetres > at_one_place)
+            continue;
+        const bool along = are_joined(figure, a, body);
+        const struct vec e = vec_of(panel->pose.along), line = along ? e : vec_perp(e);
+        const double step = 2 * (along ? panel->block.x : panel->block.y) + (along ? wall_distance : 10),
+                     sign = line.x - 2 * line.y > 0 ? 1 : -1;
+        aside = vec_add(aside, vec_scale(sign * step / panel->millimetres, line));
+    }
+    return aside;
+}
+
+/* The displacement of a body from its place in the scene: a body on a surface of a sliding body stands on top of
+ * it, and carries along those on it. */
 static struct vec lift_of(const struct figure *figure, size_t body)
 {
     const struct panel *panel = &figure->panels[body];
-    if (panel->body.carrier < 0) return (struct vec){0, 0};
+    if (panel->body.carrier < 0) return aside_of(figure, body);
     const struct panel *under = &figure->panels[panel->body.carrier];
     const struct vec lift = lift_of(figure, (size_t)panel->body.carrier);
     const struct vec n = vec_of(panel->pose.normal), e = vec_of(under->pose.along);
@@ -167,6 +201,7 @@ static void draw(struct figure *figure)
 {
     figure_links(figure);
     draw_bodies(figure);
+    figure_links_over(figure);
     figure_forces(figure);
     figure_dimensions(figure);
     labelling_solve(&figure->pen->labels);
