@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Connections of the bodies in the figure of the system: springs and dampers, ropes, rods, the ground under
- * contacts; and the applied forces.
+ * Connections of the bodies in the figure of the system: springs and dampers, ropes, rods, belts, gears, racks,
+ * grooves, and the ground under contacts.
  */
 #include <string.h>
 
 #include "draw/figure.h"
 
-static const double pi = 3.141592653589793, force_length = 15, drum_radius = 4;
+static const double pi = 3.141592653589793, drum_radius = 4;
 
 /* ---- springs and dampers */
 
@@ -293,55 +293,6 @@ static void draw_coupling(struct figure *figure, size_t index)
     }
 }
 
-/* ---- applied forces */
-
-static void draw_force(struct figure *figure, const fbd_force *force, struct vec lift)
-{
-    struct panel *pen = figure->pen;
-    const struct vec f = {force->arrow.fx, -force->arrow.fy};
-    const double size = vec_norm(f);
-    if (strcmp(force->kind, "applied") != 0 || !(size > 0)) return;
-    const struct vec u = vec_scale(1 / size, f),
-                     tail = panel_point(pen, vec_add((struct vec){force->arrow.x, force->arrow.y}, lift)),
-                     tip = vec_add(tail, vec_scale(force_length, u)), back = vec_sub(tip, vec_scale(2.4, u)),
-                     side = vec_scale(1, vec_perp(u)),
-                     head[] = {tip, vec_add(back, side), vec_sub(back, side)};
-    text_add(&pen->under, "<g class=\"applied\">\n");
-    panel_line(pen, "shaft", tail, back, 8);
-    svg_polygon(&pen->under, "head", head, 3);
-    text_add(&pen->under, "</g>\n");
-    box_take(&pen->extent, tip);
-    panel_note(pen, panel_indexed(&figure->arena, force->symbol), tip, u);
-}
-
-/* A moment is an arc over the axis or the centre of mass. */
-static void draw_moment(struct figure *figure, const struct panel *panel, const fbd_force *force)
-{
-    enum { corners = 16 };
-    struct panel *pen = figure->pen;
-    const double couple = force->arrow.couple, radius = 9, below = 0.5, half = pi / 2 + below;
-    if (strcmp(force->kind, "applied") != 0 || !force->moment || !isfinite(couple) || couple == 0) return;
-    const bool pivot = panel->body.motion == FBD_MOTION_PIVOT;
-    const struct vec axis = panel_point(pen, panel_place(panel, pivot ? vec_of(panel->body.pin) : panel->G));
-    const struct panel_arrow arrow = {.tail = axis,
-                                      .radius = radius,
-                                      .start = pi / 2 - copysign(half, couple),
-                                      .sweep = copysign(2 * half, couple)};
-    text_add(&pen->under, "<g class=\"applied\">\n");
-    panel_write_arc(&pen->under, &arrow);
-    text_add(&pen->under, "</g>\n");
-    box_take_circle(&pen->extent, axis, radius);
-    struct vec last = axis;
-    for (int i = 0; i <= corners; i++) {
-        const struct vec u = panel_direction(vec_unit(arrow.start + arrow.sweep * i / corners)),
-                         next = vec_add(axis, vec_scale(radius, u));
-        if (i > 0) labelling_avoid(&pen->labels, last, next, 8);
-        last = next;
-    }
-    panel_note(pen, panel_indexed(&figure->arena, force->symbol), vec_sub(axis, (struct vec){0, radius}),
-               (struct vec){0, -1});
-}
-
 void figure_links(struct figure *figure)
 {
     for (size_t i = 0; i < fbd_view_spring_count(figure->view); i++) draw_spring(figure, i);
@@ -351,13 +302,4 @@ void figure_links(struct figure *figure)
 void figure_links_over(struct figure *figure)
 {
     for (size_t i = 0; i < fbd_view_coupling_count(figure->view); i++) draw_coupling_over(figure, i);
-}
-
-void figure_forces(struct figure *figure)
-{
-    for (size_t b = 0; b < figure->count; b++)
-        for (size_t i = 0; i < figure->panels[b].force_count; i++) {
-            draw_force(figure, &figure->panels[b].forces[i], figure->panels[b].lift);
-            draw_moment(figure, &figure->panels[b], &figure->panels[b].forces[i]);
-        }
 }

@@ -225,6 +225,7 @@ const char svg_style[] =
     ".fbd .center{fill:#fff;stroke:#111;stroke-width:.3}\n"
     ".fbd .center-dark{fill:#111}\n"
     ".fbd .shaft{fill:none;stroke-width:.7}\n"
+    ".fbd .row .shaft{stroke-width:.35}\n"
     ".fbd .small .shaft{stroke-dasharray:1.2 .7}\n"
     ".fbd .component .shaft{stroke-width:.4;stroke-dasharray:1.6 .9}\n"
     ".fbd .head{stroke:none}\n"
