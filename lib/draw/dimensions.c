@@ -78,7 +78,8 @@ static bool choose_line(const struct panel *pen, struct dimension_line *line)
     struct dimension_line best = *line;
     for (int i = 0; i < 2 * most_offsets; i++) {
         line->out = vec_scale(i % 2 ? -1 : 1, out);
-        line->offset = first_offset + next_offset * (i / 2);
+        const int step = i / 2;
+        line->offset = first_offset + next_offset * step;
         const double cost = cost_of(pen, line) + line->offset / 2;
         if (cost >= least) continue;
         least = cost;

@@ -50,8 +50,11 @@ static inline void box_take_circle(struct box *box, struct vec center, double ra
 /* Draw the springs and dampers, and the couplings and the ground under contacts: beneath the bodies. */
 void figure_links(struct figure *figure);
 
-/* Draw belts, teeth, racks and grooves: in front of the bodies. */
+/* Draw belts, teeth, racks, grooves and actuators: in front of the bodies. */
 void figure_links_over(struct figure *figure);
+
+/* True if an actuator of this name is drawn between its points, in place of its two forces. */
+bool figure_has_ram(const struct figure *figure, const char *name);
 
 /* Draw the applied forces and moments of all bodies. */
 void figure_forces(struct figure *figure);

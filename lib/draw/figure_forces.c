@@ -86,7 +86,7 @@ static void draw_force(struct figure *figure, size_t body, size_t index)
     struct panel *pen = figure->pen;
     const struct vec f = {force->arrow.fx, -force->arrow.fy};
     const double size = vec_norm(f);
-    if (strcmp(force->kind, "applied") != 0 || !(size > 0)) return;
+    if (strcmp(force->kind, "applied") != 0 || !(size > 0) || figure_has_ram(figure, force->symbol)) return;
     const struct vec u = vec_scale(1 / size, f);
     if (draw_row(figure, body, index, u)) return;
     const struct vec tail = panel_point(pen, vec_add((struct vec){force->arrow.x, force->arrow.y}, lift)),

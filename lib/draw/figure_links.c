@@ -299,7 +299,53 @@ void figure_links(struct figure *figure)
     for (size_t i = 0; i < fbd_view_coupling_count(figure->view); i++) draw_coupling(figure, i);
 }
 
+/* A cylinder on the first point, with its rod at the second one. */
+static void draw_ram(struct figure *figure, struct vec from, struct vec to, const char *name)
+{
+    const double half = 2, begins = 0.15, ends = 0.65;
+    struct panel *pen = figure->pen;
+    const struct vec way = vec_sub(to, from), side = vec_scale(half / vec_norm(way), vec_perp(way)),
+                     near = vec_add(from, vec_scale(begins, way)), far = vec_add(from, vec_scale(ends, way)),
+                     corners[] = {vec_add(near, side), vec_add(far, side), vec_sub(far, side),
+                                  vec_sub(near, side)};
+    panel_line(pen, "thread", from, to, on_outline);
+    svg_polygon(&pen->under, "body", corners, 4);
+    for (int i = 0; i < 4; i++) labelling_avoid(&pen->labels, corners[i], corners[(i + 1) % 4], on_outline);
+    svg_circle(&pen->under, "hole", from, 1.1);
+    svg_circle(&pen->under, "hole", to, 1.1);
+    labelling_add(&pen->labels, panel_indexed(&figure->arena, name), label_size,
+                  vec_add(from, vec_scale((begins + ends) / 2, way)), vec_scale(1 / half, side), half + 0.8);
+}
+
+bool figure_has_ram(const struct figure *figure, const char *name)
+{
+    for (size_t i = 0; i < fbd_model_connection_count(figure->model); i++) {
+        const fbd_connection connection = fbd_model_connection(figure->model, i);
+        if (strcmp(connection.kind, "actuator") == 0 && strcmp(connection.name, name) == 0)
+            return node_find(letters_entry(&figure->letters, "", name), "force") != NULL;
+    }
+    return false;
+}
+
+/* Actuators with a force between two points; those with a moment are arcs. */
+static void draw_rams(struct figure *figure)
+{
+    for (size_t i = 0; i < fbd_model_connection_count(figure->model); i++) {
+        const fbd_connection connection = fbd_model_connection(figure->model, i);
+        if (strcmp(connection.kind, "actuator") != 0 || !figure_has_ram(figure, connection.name)) continue;
+        struct vec at[2];
+        for (int k = 0; k < 2; k++) {
+            const fbd_connection_end *end = &connection.ends[k];
+            const bool center = end->center && end->body >= 0;
+            const struct vec G = center ? figure->panels[end->body].G : vec_of(end->point);
+            at[k] = figure_point(figure, end->body, (double[]){G.x, G.y});
+        }
+        if (vec_norm(vec_sub(at[1], at[0])) > 0) draw_ram(figure, at[0], at[1], connection.name);
+    }
+}
+
 void figure_links_over(struct figure *figure)
 {
+    draw_rams(figure);
     for (size_t i = 0; i < fbd_view_coupling_count(figure->view); i++) draw_coupling_over(figure, i);
 }
