@@ -8,7 +8,8 @@
 
 static const double pi = 3.141592653589793, surface_half = 34, free_half = 20, hatch_step = 2.4;
 
-static const double dot_radius = 1.6;
+/* Of a point mass, and of a body without a size that turns. */
+static const double dot_radius = 1.6, conventional_disc = 8;
 
 struct vec panel_point(const struct panel *panel, struct vec world)
 {
@@ -35,16 +36,28 @@ static bool on_ground(const struct panel *panel)
 
 /* ---- the body */
 
-/* Avoid both edges of a bar. */
+/* Avoid both edges of a bar, which has round ends. */
 static void avoid_bar(struct panel *panel, struct vec from, struct vec to)
 {
     const double half_width = 1.3;
     struct vec d = vec_sub(to, from);
     const double length = vec_norm(d);
     if (length == 0) return;
-    struct vec side = vec_scale(half_width / length, vec_perp(d));
+    const struct vec end = vec_scale(half_width / length, d), side = vec_perp(end);
+    from = vec_sub(from, end);
+    to = vec_add(to, end);
     labelling_avoid(&panel->labels, vec_add(from, side), vec_add(to, side), on_outline);
     labelling_avoid(&panel->labels, vec_sub(from, side), vec_sub(to, side), on_outline);
+}
+
+static void avoid_circle(struct panel *panel, struct vec center, double radius)
+{
+    enum { sides = 32 };
+    for (int i = 0; i < sides; i++) {
+        const struct vec from = vec_unit(2 * pi * i / sides), to = vec_unit(2 * pi * (i + 1) / sides);
+        labelling_avoid(&panel->labels, vec_add(center, vec_scale(radius, from)),
+                        vec_add(center, vec_scale(radius, to)), on_outline);
+    }
 }
 
 static void draw_part(struct panel *panel, const fbd_shape *part)
@@ -82,13 +95,7 @@ static void take_part(struct panel *panel, const fbd_shape *part)
     box_take(&panel->extent, (struct vec){center.x + reach, center.y + reach});
     for (size_t i = 0; i < part->corner_count; i++)
         box_take(&panel->extent, panel_point(panel, panel_place(panel, vec_of(part->corners[i]))));
-    if (part->kind != FBD_SHAPE_CIRCLE) return;
-    enum { sides = 16 };
-    for (int i = 0; i < sides; i++) {
-        struct vec from = vec_unit(2 * pi * i / sides), to = vec_unit(2 * pi * (i + 1) / sides);
-        labelling_avoid(&panel->labels, vec_add(center, vec_scale(reach, from)),
-                        vec_add(center, vec_scale(reach, to)), on_outline);
-    }
+    if (part->kind == FBD_SHAPE_CIRCLE) avoid_circle(panel, center, reach);
 }
 
 /* Draw the edge of the body. */
@@ -113,8 +120,8 @@ static void draw_plate(struct panel *panel)
         take_part(panel, &disc);
         struct vec hub = panel_point(panel, panel_place(panel, plate->hub)),
                    spoke = panel_direction((struct vec){panel->pose.cosine, panel->pose.sine});
-        svg_line(&panel->under, "thread", hub,
-                 vec_add(hub, vec_scale(plate->wheel * panel->millimetres, spoke)));
+        panel_line(panel, "thread", hub, vec_add(hub, vec_scale(plate->wheel * panel->millimetres, spoke)),
+                   on_outline);
     } else if (plate->count == 2) {
         fbd_shape bar = {.kind = FBD_SHAPE_BAR,
                          .corner_count = 2,
@@ -146,10 +153,13 @@ static void draw_sizeless(struct panel *panel)
         edge(panel, corners, 4);
         return;
     }
-    if (panel->body.motion == FBD_MOTION_PIVOT) return; /* the bearing shows its position */
+    if (panel->body.motion == FBD_MOTION_PIVOT && !(panel->joined && panel_fixtures_in_front(panel)))
+        return; /* the bearing shows its position */
     if (panel->body.motion != FBD_MOTION_SLIDE) {
         bool point = panel->body.motion == FBD_MOTION_PARTICLE || panel->body.motion == FBD_MOTION_TRACK;
-        svg_circle(&panel->under, point ? "mass" : "body", G, point ? dot_radius : 8);
+        const double radius = point ? dot_radius : conventional_disc;
+        svg_circle(&panel->under, point ? "mass" : "body", G, radius);
+        avoid_circle(panel, G, radius);
         return;
     }
     if (panel->joined && panel->plate.rods > 1) { /* the end of a truss, on a roller */
@@ -190,7 +200,8 @@ void panel_body(struct panel *panel)
         struct vec axis = panel_point(panel, panel_place(panel, vec_of(panel->body.pin)));
         for (size_t i = 0; i < shapes; i++) {
             fbd_shape part = fbd_model_shape(panel->model, panel->index, i);
-            panel_line(panel, "thread", axis, panel_point(panel, panel_place(panel, vec_of(part.center))), 2);
+            panel_line(panel, "thread", axis, panel_point(panel, panel_place(panel, vec_of(part.center))),
+                       on_outline);
         }
     }
     struct vec low, high;
@@ -215,7 +226,7 @@ void panel_hatched_line(struct panel *panel, struct vec from, struct vec to, str
     struct vec d = vec_sub(to, from);
     double length = vec_norm(d);
     struct vec unit = vec_scale(1 / length, d);
-    panel_line(panel, "ground", from, to, 6);
+    panel_line(panel, "ground", from, to, on_outline);
     text_add(&panel->under, "<path class=\"hatch\" d=\"");
     int count = (int)(length / hatch_step);
     for (int i = 0; i <= count; i++) {
@@ -323,7 +334,8 @@ static void draw_slide(struct panel *panel)
     struct vec foot = vec_sub(far, vec_scale(2 * reach + 9, e));
     double turn = along;
     panel_line(panel, "reference", foot, vec_add(foot, (struct vec){18, 0}), 3);
-    const char *text = angle_text(panel, "", turn);
+    const char *name = panel->slope ? arena_printf(panel->arena, "%s = ", panel->slope) : "",
+               *text = name ? angle_text(panel, name, turn) : NULL;
     if (text) angle_arc(panel, foot, 13, 0, turn, text);
 }
 
@@ -354,6 +366,7 @@ void panel_bearing(struct panel *panel, struct vec axis, double down)
     const struct vec d = {0, down}, foot = vec_add(axis, vec_scale(6, d)), side = {3.6, 0}, wide = {7, 0};
     const struct vec corners[] = {axis, vec_add(foot, side), vec_sub(foot, side)};
     svg_polygon(&panel->under, "support", corners, 3);
+    for (int i = 0; i < 3; i++) labelling_avoid(&panel->labels, corners[i], corners[(i + 1) % 3], on_outline);
     panel_hatched_line(panel, vec_sub(foot, wide), vec_add(foot, wide), d);
 }
 

@@ -49,6 +49,33 @@ void labelling_avoid(struct labelling *labelling, struct vec from, struct vec to
     obstacles[labelling->obstacle_count++] = (struct obstacle){from, to, cost};
 }
 
+static double distance(struct vec point, const struct obstacle *line)
+{
+    const struct vec d = vec_sub(line->to, line->from), way = vec_sub(point, line->from);
+    const double square = vec_dot(d, d), share = square > 0 ? vec_dot(way, d) / square : 0;
+    return vec_norm(vec_sub(way, vec_scale(fmin(fmax(share, 0), 1), d)));
+}
+
+/* Samples closer to each other than the distance that counts as touching. */
+static bool touches(struct vec from, struct vec to, const struct obstacle *line)
+{
+    const double near = 0.5;
+    const struct vec d = vec_sub(to, from);
+    const int count = (int)ceil(vec_norm(d) / near);
+    for (int i = 0; i <= count; i++)
+        if (distance(vec_add(from, vec_scale(count > 0 ? (double)i / count : 0, d)), line) < near)
+            return true;
+    return false;
+}
+
+double labelling_crossed(const struct labelling *labelling, struct vec from, struct vec to)
+{
+    double cost = 0;
+    for (size_t i = 0; i < labelling->obstacle_count; i++)
+        if (touches(from, to, &labelling->obstacles[i])) cost += labelling->obstacles[i].cost;
+    return cost;
+}
+
 struct box labelling_box(const struct label_place *label)
 {
     struct vec half = vec_scale(0.5, label->size);

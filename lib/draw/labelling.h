@@ -42,6 +42,9 @@ size_t labelling_add(struct labelling *labelling, const char *text, double size,
 /* Add a line that labels should not cover. */
 void labelling_avoid(struct labelling *labelling, struct vec from, struct vec to, double cost);
 
+/* The sum of the costs of the lines that a segment crosses or nearly touches. */
+double labelling_crossed(const struct labelling *labelling, struct vec from, struct vec to);
+
 /* Choose all centres. Returns false when memory ran out while the labels were added. */
 bool labelling_solve(struct labelling *labelling);
 

@@ -66,6 +66,7 @@ struct panel {
     bool enlarged;      /* drawn to a larger scale than the other bodies of the sheet */
     struct vec block;   /* half width and half height on paper if it is drawn as a block without a size */
     struct vec lift;    /* in the figure: of the body from its place in the scene, in the world */
+    const char *slope;  /* in the figure: the letter of the angle of the slide, or NULL */
     struct vec base;    /* slide: point of contact with its surface, in the world */
     struct vec seat;    /* wedge: middle of the surface of the body on it, on paper */
 
@@ -179,6 +180,8 @@ double round_up(double value);
 
 /* A value to four digits with its unit: 10.15 kN. */
 const char *panel_value(struct panel *panel, double value, const char *unit);
+
+const char *panel_text(struct arena *arena, double value, const char *unit);
 
 /* A scale, to six digits. */
 const char *panel_scale_value(struct panel *panel, double value, const char *unit);

@@ -36,9 +36,14 @@ static const char *write_value(struct arena *arena, double value, const char *un
     return keep(arena, &text);
 }
 
+const char *panel_text(struct arena *arena, double value, const char *unit)
+{
+    return write_value(arena, value, unit, value_digits);
+}
+
 const char *panel_value(struct panel *panel, double value, const char *unit)
 {
-    return write_value(panel->arena, value, unit, value_digits);
+    return panel_text(panel->arena, value, unit);
 }
 
 const char *panel_scale_value(struct panel *panel, double value, const char *unit)

@@ -37,18 +37,16 @@ void note_system(struct making *making)
 {
     struct arena *arena = &making->document->arena;
     const size_t count = fbd_model_body_count(making->model);
-    const fbd_drawing drawing = {.size = sizeof drawing, .supports = true, .symbols = true, .untitled = true};
+    const fbd_drawing drawing = {.size = sizeof drawing, .system = true, .untitled = true};
     document_heading(making->document, 2, "System");
     if (count > most_drawn_bodies) {
         document_paragraph(making->document, "%zu bodies: %s.", count, names(making));
         return;
     }
     const char *alternative =
-        arena_printf(arena,
-                     "The bodies %s at the start with their supports, every force as an "
-                     "arrow with its letter.",
+        arena_printf(arena, "The bodies %s joined, at the start, with their supports and the applied forces.",
                      names(making));
-    draw(making, &drawing, "the bodies at the start with their supports; forces by their letters",
+    draw(making, &drawing, "the system at the start: supports, applied forces, dimensions and masses",
          alternative);
 }
 
@@ -80,11 +78,21 @@ static const char *describe(struct making *making, size_t body)
     return making_take(making);
 }
 
+/* The letters of the equations. */
+static void draw_letters(struct making *making)
+{
+    const fbd_drawing drawing = {.size = sizeof drawing, .symbols = true, .untitled = true};
+    draw(making, &drawing, "each body cut free, forces by their letters",
+         arena_printf(&making->document->arena,
+                      "The bodies %s cut free, every force as an arrow with its letter.", names(making)));
+}
+
 void note_diagrams(struct making *making)
 {
     struct arena *arena = &making->document->arena;
     const size_t count = fbd_model_body_count(making->model);
     document_heading(making->document, 2, "Free-body diagrams");
+    if (count <= most_drawn_bodies) draw_letters(making);
     for (size_t b = 0; b < drawn_bodies(making); b++) {
         const char *name = fbd_model_body_name(making->model, b);
         const fbd_drawing drawing = {.size = sizeof drawing, .body = name, .untitled = true};

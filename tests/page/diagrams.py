@@ -66,14 +66,14 @@ boxes.forEach((a, i) => {
     if (wide > slack && high > 0.2 * Math.min(a.height, b.height)) wrong.push(labels[i].textContent + ' on ' + labels[k].textContent);
   }
 });
-// Lines of bodies, arrows and leaders through a label: pieces of each line that lie in the box of its letters.
+// Lines of bodies, arrows, ropes, the ground, dimensions and leaders through a label: pieces of each line that lie in the box of its letters.
 const letters = boxes.map((b) => ({ left: b.left + slack, right: b.right - slack, top: b.top + 0.2 * b.height, bottom: b.bottom - 0.2 * b.height }));
 function along(element) {
   const matrix = element.getScreenCTM(), length = element.getTotalLength(), count = Math.max(8, Math.ceil(length * matrix.a / 0.7)), points = [];
   for (let k = 0; k <= count; k++) points.push(element.getPointAtLength(length * k / count).matrixTransform(matrix));
   return points;
 }
-const lines = document.querySelectorAll('.body, .hole, .bar, .shaft, .leader');
+const lines = document.querySelectorAll('.body, .hole, .bar, .shaft, .thread, .ground, .dimension, .leader');
 for (const line of lines) {
   const half = line.classList.contains('bar') ? 1.2 * line.getScreenCTM().a : 0, points = along(line);
   letters.forEach((b, i) => {
@@ -98,11 +98,12 @@ def draw(model, path, *arguments):
 
 
 def drawings(folder):
-    """(name, path): at the start, in the middle with components, of every model."""
+    """(name, path): at the start, the figure of the system, in the middle with components, of every model."""
     made = []
     for model in models(folder):
         name = f"{model.parent.name}-{model.stem}"
         made.append((name, draw(model, folder / f"{name}.svg")))
+        made.append((f"{name}, system", draw(model, folder / f"{name}-system.svg", "--system")))
         until = re.search(r"until: *([0-9.e]+) *s", model.read_text(encoding="utf-8"))
         middle = folder / f"{name}-middle.svg"
         if until and "hard" not in str(model):

@@ -148,9 +148,9 @@ static void a_note_outlives_its_run(void **context)
     assert_true(strstr(page, "1 May") && strstr(page, "m = 2 kg"));
     assert_true(strstr(text, "(<sheet-1.svg>)"));
     assert_null(fbd_note_write(note, (fbd_note_format)9, NULL));
-    assert_int_equal(fbd_note_drawing_count(note), 4); /* system, body, x, v */
-    assert_non_null(strstr(fbd_note_drawing(note, 3), "<svg"));
-    assert_null(fbd_note_drawing(note, 4));
+    assert_int_equal(fbd_note_drawing_count(note), 5); /* system, letters, body, x, v */
+    assert_non_null(strstr(fbd_note_drawing(note, 4), "<svg"));
+    assert_null(fbd_note_drawing(note, 5));
     assert_true(fbd_note_check_count(note) >= 5);
     assert_int_equal(fbd_note_failed_check_count(note), 0);
     free(page);

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The figure of the system during drawing: the panels of the bodies, with one origin, one scale and one
+ * labelling, and a pen for the lines between them.
+ */
+#ifndef FBD_DRAW_FIGURE_H
+#define FBD_DRAW_FIGURE_H
+
+#include "draw/letters.h"
+#include "draw/panel.h"
+
+/* Length of a spring or damper to a wall without a position in the file, on paper [mm]. */
+static const double wall_distance = 26;
+
+struct figure {
+    struct arena arena;
+    const fbd_model *model;
+    fbd_view *view;
+    struct panel *panels;
+    size_t count;
+    struct panel *pen; /* of the lines between the bodies */
+    struct letters letters;
+};
+
+/* A point of a body, or of the ground, in the world. */
+static inline struct vec figure_place(const struct figure *figure, int body, const double point[2])
+{
+    return body < 0 ? vec_of(point) : panel_place(&figure->panels[body], vec_of(point));
+}
+
+static inline struct vec figure_point(const struct figure *figure, int body, const double point[2])
+{
+    return panel_point(figure->pen, figure_place(figure, body, point));
+}
+
+/* A place of the scene where something acts on a body. */
+static inline struct vec figure_place_of(const struct figure *figure, int body, const double world[2])
+{
+    const struct vec lift = body < 0 ? (struct vec){0, 0} : figure->panels[body].lift;
+    return panel_point(figure->pen, vec_add(vec_of(world), lift));
+}
+
+/* A circle of the drawing, on paper or in the world. */
+static inline void box_take_circle(struct box *box, struct vec center, double radius)
+{
+    box_take(box, vec_sub(center, (struct vec){radius, radius}));
+    box_take(box, vec_add(center, (struct vec){radius, radius}));
+}
+
+/* Draw the springs and dampers, and the couplings and the ground under contacts: beneath the bodies. */
+void figure_links(struct figure *figure);
+
+/* Draw belts, teeth, racks, grooves and actuators: in front of the bodies. */
+void figure_links_over(struct figure *figure);
+
+/* True if an actuator of this name is drawn between its points, in place of its two forces. */
+bool figure_has_ram(const struct figure *figure, const char *name);
+
+/* Draw the applied forces and moments of all bodies. */
+void figure_forces(struct figure *figure);
+
+/* Draw the dimensions of the parts of all bodies, and write their masses: over all else. */
+void figure_dimensions(struct figure *figure);
+
+#endif
