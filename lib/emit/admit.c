@@ -26,8 +26,8 @@ struct words {
     }
 
 static const struct words top_keys =
-    WORDS("fbd", "title", "description", "units", "gravity", "datum", "parameters", "tables", "ground",
-          "bodies", "couplings", "contacts", "simulate", "output", "$schema", "grading");
+    WORDS("fbd", "title", "description", "units", "gravity", "plane", "datum", "parameters", "tables",
+          "ground", "bodies", "couplings", "contacts", "simulate", "output", "$schema", "grading");
 static const struct words body_keys =
     WORDS("mass", "shape", "parts", "inertia", "points", "motion", "initial", "forces", "moments", "hand",
           "exact", "description", "length", "radius", "outer_radius", "inner_radius", "a", "b", "c", "axis",

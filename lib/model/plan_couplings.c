@@ -4,6 +4,7 @@
  * They are in one list with the modes of dry friction.
  */
 #include "model/builder.h"
+#include "numeric/tolerances.h"
 
 /* Add a mode of a coupling, without a normal force; returns its index. */
 static int add_mode(struct builder *builder, const struct coupling *coupling, enum mode_kind kind, int body)
@@ -95,10 +96,9 @@ static void plan_groove(struct builder *builder, struct coupling *coupling)
 /* A negligible speed, per force: that of the body after 1e-10 of the run. */
 static double soft_of(const struct fbd_model *model, int body)
 {
-    const double negligible = 1e-10;
     const struct value *until = &model->scene->simulate.until;
     const double time = until->expr ? expr_value(until->expr) : 1, mass = model->bodies[body].inertia.mass;
-    return mass > 0 ? negligible * time / mass : 0;
+    return mass > 0 ? soft_part * time / mass : 0;
 }
 
 /* Friction on a plane: its normal force is known. */

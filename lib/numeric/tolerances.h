@@ -26,6 +26,9 @@ static const double negligible_part = 1e-13;
 /* The same of sums of thousands of terms, or with cancellation by a factor of ten. */
 static const double negligible_sum = 1e-12;
 
+/* Friction on a plane: the part of a run after which a body that starts from rest has a direction (plane_friction.h). */
+static const double soft_part = 1e-10;
+
 /* ---- files */
 
 /* Digits of numbers in a file: directions and positions that agree in nine digits are meant to be equal. */

@@ -20,6 +20,7 @@ static const struct {
     {"force_friction", "coefficient static kinetic"},
     {"moment_friction", "coefficient static kinetic bearing+radius"},
     {"coupling_actuator", "moment force"},
+    {"coupling_plane_friction", "static kinetic"},
     {"rod", "length from+to"},
     {"sphere", "radius"},
     {"cylinder", "radius"},

@@ -138,6 +138,8 @@ def missing(name, text):
     if re.search(r"\bfriction: {.*\bbearing: ", text):
         return "friction that depends on the reaction"
     couplings = text.partition("\ncouplings:")[2].partition("\nsimulate:")[0].partition("\ncontacts:")[0]
+    if "plane_friction:" in couplings:
+        return "friction on a plane"
     kind = re.search(r"\b(pin|weld|rod|rope|belt|gear|rack|ratio|roll|slot):", couplings)
     if kind and "around:" in couplings:
         return "a drum"
