@@ -25,6 +25,7 @@ from ._records import (Arrow, Coordinate, Drift, Energy, Equation, Event, HandCh
                        Stats, Unbalanced)
 from ._run import Run
 from ._section import Cut, Section
+from ._simulation import Simulation
 from ._state import Equations, State, Statics
 from ._sweep import SweepTable
 from ._testing import assert_derivation
@@ -35,7 +36,7 @@ __version__: str = _text_at(_lib.fbd_version())
 __all__ = [
     "AccuracyNotReached", "Arrow", "Coordinate", "Cost", "CostPoint", "Cut", "Drift", "Effect", "Effects", "Energy",
     "Equation", "Equations", "Error", "Event", "Finding", "Fit", "Fitted", "Fix", "Found", "Gap", "Grade", "HandCheck", "Inertia", "Key", "Limit", "Linearization", "Mode", "Model",
-    "Note", "Now", "Parameter", "Progress", "Run", "RunFailed", "Section", "Solution", "State", "Statics", "Stats", "SweepTable", "Transfer", "Unbalanced",
+    "Note", "Now", "Parameter", "Progress", "Run", "RunFailed", "Section", "Simulation", "Solution", "State", "Statics", "Stats", "SweepTable", "Transfer", "Unbalanced",
     "assert_derivation", "check", "schema",
 ]
 

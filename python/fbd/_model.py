@@ -18,6 +18,7 @@ from ._notes import Error, Note, complaint
 from ._records import Coordinate, HandCheck, Inertia, Parameter, Progress, from_struct, picture
 from ._run import Run
 from ._section import Section
+from ._simulation import Simulation
 from ._state import Equations, State, Statics, coordinates_of
 from ._sweep import SweepTable, Vary
 
@@ -275,6 +276,19 @@ class Model:
                                    "error_bars": error_bars, "structure": structure}
         model = self if inputs is None else self.with_inputs(inputs)
         return _run.start(model, progress, self._seconds(every, "every"), ledger, components, options)
+
+    def simulate(self, *, until: Time = None, tolerance: Optional[float] = None, step: Time = None,
+                 method: Optional[str] = None, structure: bool = True) -> Simulation:
+        """A motion from the start of the file that is advanced step by step, with :meth:`fbd.Simulation.set_input` on the
+        way. Options of :meth:`run`.
+
+        >>> simulation = model.simulate()
+        >>> simulation.set_input("push", "8 N")
+        >>> simulation.advance(0.5)["block.x"]
+        """
+        options: Dict[str, Any] = {"until": self._seconds(until, "until"), "tolerance": tolerance,
+                                   "step": self._seconds(step, "step"), "method": method, "structure": structure}
+        return Simulation(self, options)
 
     def note(self, path: Union[str, "os.PathLike[str]"], *, date: Optional[str] = None, **options: Any) -> Run:
         """Run the model with error bars, and write its calculation note (:meth:`Run.note`). Options of :meth:`run`.

@@ -116,3 +116,56 @@ def test_threads_run_one_model():
     for thread in threads:
         thread.join()
     assert len(ends) == 3 and len(set(ends)) == 1
+
+
+OSCILLATOR = """
+fbd: 1
+inputs: {push: 5 N}
+bodies:
+  block:
+    mass: 2 kg
+    motion: slide
+    forces: [spring: {stiffness: 50 N/m}, applied: {value: push}]
+    initial: {x: 0.3 m}
+simulate: {until: 4 s, events: [{name: middle, when: "x = 0.1", direction: falling}]}
+"""
+
+
+def swing(x, v, force, h):
+    """Closed form: x'' = force/m - (k/m) x, with k/m = 25/s^2."""
+    rest = force / 50
+    return (rest + (x - rest) * math.cos(5 * h) + v / 5 * math.sin(5 * h),
+            -5 * (x - rest) * math.sin(5 * h) + v * math.cos(5 * h))
+
+
+def test_an_input_is_constant_until_it_is_set_anew():
+    simulation, x, v, force = fbd.Model.parse(OSCILLATOR).simulate(), 0.3, 0.0, 5.0
+    for i in range(1, 21):
+        state = simulation.advance(0.1 * i)
+        x, v = swing(x, v, force, 0.1)
+        assert state["block.x"] == pytest.approx(x, abs=1e-9) and state["v"] == pytest.approx(v, abs=1e-8)
+        force = 20 * math.sin(i)
+        simulation.set_input("push", force)
+    assert simulation.t == 2.0 and not simulation.ended
+    assert all(event.name == "middle" and event.t <= 2 for event in simulation.events) and simulation.events
+
+
+def test_without_a_change_the_steps_are_those_of_the_run():
+    model = fbd.Model.parse(OSCILLATOR)
+    simulation, run = model.simulate(), model.run()
+    for t in (0.3, 1.7, 2.9):
+        assert simulation.advance(t)["block.x"] == run.at(t)["block.x"]
+    assert simulation.advance(9)["block.x"] == run.at(4)["block.x"]
+    assert simulation.ended and simulation.t == 4
+
+
+def test_what_cannot_be_set_is_refused():
+    simulation = fbd.Model.parse(OSCILLATOR).simulate()
+    with pytest.raises(fbd.Error) as raised:
+        simulation.set_input("pull", 3)
+    assert raised.value.id == "unknown-input" and "`push`" in str(raised.value)
+    with pytest.raises(fbd.Error):
+        simulation.set_input("push", "3 m")
+    assert simulation.advance(0.2)["block.x"] == fbd.Model.parse(OSCILLATOR).run().at(0.2)["block.x"]
+    with pytest.raises(ValueError, match="before"):
+        simulation.advance(0.1)
