@@ -9,7 +9,6 @@
  *   weights on a pulley   (T_1 - T_2) R = I a/R + k (T_1 + T_2 + M g), T_1 = m_1 (g - a), T_2 = m_2 (g + a)
  *   a rising pull F       on the first one: it begins with (m_1 g + F - m_2 g) R = k (m_1 g + F + m_2 g + M g)
  *   a block over it       (T_1 - T_2) R = I a/R + k hypot(T_2, T_1 + M g), T_2 = m_2 a
- *   a weight that rises past the dead centre of its rope  over a pulley without mass, as over a light one
  *   a lever               without weight, under a force whose line passes the pin at a distance e: it locks itself
  *                         where e < k, whatever the force, and turns with F (e - k) / (I_O - k m L) for e > k
  *                         where the force is across the arm to the centre of mass, at F L m > I_O
@@ -110,43 +109,6 @@ static void check_pull(struct checks *checks, struct random_numbers *numbers)
     trial_close(&trial);
 }
 
-/* The first weight rises beside its pulley, past the dead centre of its rope, where the pulley reverses, and
- * back. Returns whether it passes. */
-static bool run_past(const struct hoist *h, double aside, double M, double *v, double *omega)
-{
-    char text[800];
-    snprintf(
-        text, sizeof text,
-        "fbd: 1\nbodies:\n  first: {mass: %.17g, motion: {slide: {along: 90 deg, through: [%.17g, -1]}}, "
-        "forces: [gravity]}\n  second: {mass: %.17g, motion: {slide: {along: 90 deg, through: [%.17g, -4]}}, "
-        "forces: [gravity]}\n  pulley:\n    mass: %.17g\n    shape: disc\n    radius: %.17g\n    motion: "
-        "pivot\n    moments: [friction: {bearing: 0.2, radius: %.17g}]\ncouplings:\n  - rope: {through: "
-        "[second.G, pulley, first.G]}\nsimulate: {until: 1.2 s}\n",
-        h->m1, h->R + aside, h->m2, -h->R, M, h->R, h->k / 0.2);
-    struct trial trial = trial_parse(text);
-    trial_start(&trial, NULL);
-    trial_finish(&trial);
-    const bool passes = trial_get(&trial, "first.x") > 1;
-    *v = trial_get(&trial, "first.v");
-    *omega = trial_get(&trial, "pulley.omega");
-    trial_close(&trial);
-    return passes;
-}
-
-/* A pulley without mass moves as one of a millionth of the weights does. */
-static void check_dead_centre(struct checks *checks, struct random_numbers *numbers)
-{
-    const double light = 1e-6, near = 1e-4;
-    struct hoist h = draw_hoist(numbers);
-    const double aside = random_between(numbers, 0.1, 0.5);
-    double v, omega, v_light, omega_light;
-    h.m2 = h.m1 * random_between(numbers, 2.5, 4);
-    const bool passes = run_past(&h, aside, 0, &v, &omega);
-    check_that(checks, "passes", passes == run_past(&h, aside, light * h.m1, &v_light, &omega_light));
-    check_close(checks, "v past the dead centre", v, v_light, near);
-    check_close(checks, "omega past the dead centre", omega, omega_light, near / h.R);
-}
-
 /* A rod of the length 2 L about one end, in a plane without weight; the force at s = e along it. */
 static void check_lever(struct checks *checks, struct random_numbers *numbers)
 {
@@ -171,8 +133,7 @@ static void bearings_have_closed_forms(void **unused)
 {
     (void)unused;
     static void (*const kinds[])(struct checks * checks,
-                                 struct random_numbers * numbers) = {check_weights, check_pull,
-                                                                     check_dead_centre, check_lever};
+                                 struct random_numbers * numbers) = {check_weights, check_pull, check_lever};
     const int draws = draws_of(60);
     struct random_numbers numbers = {5104};
     struct checks checks = {0};
