@@ -57,6 +57,17 @@ static bool has_no_inertia(const struct tree *tree, int unknown, double pivot)
     return -pivot * massless_of(tree, unknown)->added <= nothing_left;
 }
 
+/* As modes are tried, constraints that give a coordinate its inertia are loose, and this share of the added
+ * one remains in place of none. With all of it a pulley without mass would take a moment to be accelerated, and
+ * its ropes would become slack in other modes than those of the motion; forces of sticking friction do not
+ * depend on it. */
+static void keep_some_inertia(struct tree_work *work, int unknown)
+{
+    const double kept = 1e-6;
+    work->scale[unknown] = kept / work->unmoved->added;
+    work->diagonal[unknown] -= work->scale[unknown];
+}
+
 /* Factor row and column j up to the diagonal, given those before. */
 static void factor_row(const struct tree *tree, struct tree_work *work, int j, double epsilon)
 {
@@ -78,7 +89,8 @@ static void factor_row(const struct tree *tree, struct tree_work *work, int j, d
     work->inverse[j] = movable && pivot != 0 ? 1 / pivot : 0;
     if (unknown_is_massless(tree, unknown) && has_no_inertia(tree, unknown, pivot)) {
         work->unmoved = massless_of(tree, unknown);
-        work->inverse[j] = work->tentative ? 0 : NAN;
+        if (work->tentative) keep_some_inertia(work, unknown);
+        work->inverse[j] = work->tentative ? -1 / work->scale[unknown] : NAN;
     }
     if (!unknown_is_row(tree, unknown)) return;
     work->rows[unknown].redundant = !movable || !(fabs(pivot) > 10 * shift);
@@ -176,11 +188,11 @@ void tree_system_factor(const struct fbd_model *model, const struct instant *at)
     tree_system_refactor(model->tree, at->tree);
 }
 
-/* The residual of a massless coordinate. */
+/* The residual of a massless coordinate; its scale is by keep_some_inertia. */
 static double massless_answer(const struct tree *tree, const struct tree_work *work, int j, double f)
 {
     const struct tree_massless *of = massless_of(tree, j);
-    return work->unit[tree->links[of->link].coordinate + of->local] - f / of->added;
+    return work->unit[tree->links[of->link].coordinate + of->local] - f * (1 / of->added + work->scale[j]);
 }
 
 /* For a light body the rounding of a force is an acceleration that violates its rows. Solve for the residual

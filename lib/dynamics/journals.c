@@ -26,10 +26,8 @@ void journals_aim(const struct tree *tree, struct tree_work *work)
     }
 }
 
-/* A change d of n changes n . F by d^2/2 of it. */
 bool journals_turn(const struct tree *tree, const struct instant *at)
 {
-    const double negligible = 1e-12;
     struct tree_work *work = at->tree;
     double change = 0;
     for (int k = 0; k < tree->pair_count; k++) {
@@ -38,5 +36,5 @@ bool journals_turn(const struct tree *tree, const struct instant *at)
         const struct vec F = vec_add(work->links[i].F.force, journal_force(work, i));
         change = fmax(change, journal_aim(tree, work, i, F));
     }
-    return change > negligible;
+    return change > journal_negligible_turn;
 }

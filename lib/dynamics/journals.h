@@ -32,6 +32,10 @@
 
 struct fbd_state;
 
+/* A change d of n changes n . F by d^2/2 of it. The direction of a small reaction, the sum of large forces, has
+ * the rounding of these. */
+static const double journal_negligible_turn = 1e-8;
+
 /* The force in the joint of link i for the right-hand side solved last. */
 static inline struct vec journal_force(const struct tree_work *work, int i)
 {

@@ -119,7 +119,7 @@ struct tree_work {
     double damping;         /* of a projection: relative squares of slopes below this are damped out */
     double accuracy;        /* relative, of projected coordinates */
     bool projecting;        /* the system is set up for a projection: no friction */
-    bool tentative;         /* modes are tried: a motion without inertia has the one that is added */
+    bool tentative;         /* modes are tried: a motion without inertia keeps some of the added one */
     bool placing;           /* a projection: inertias that are added are part of its metric */
     bool settling_down;     /* contacts are projected by their gaps only, without sticking friction */
     struct tree_loop *loop; /* of three links, if that is the scene, or NULL: see tree_loop.h */

@@ -364,7 +364,6 @@ bool gathered_find(struct gathered *all, struct fbd_state *state, const struct d
 
 bool gathered_turn_journals(struct gathered *all)
 {
-    const double negligible = 1e-12;
     struct hold_problem *problem = &all->problem;
     double change = 0;
     for (size_t g = 0; g < problem->guide_count; g++) {
@@ -380,7 +379,7 @@ bool gathered_turn_journals(struct gathered *all)
         for (size_t k = 0; k < problem->count; k++)
             problem->B[g * problem->count + k] = vec_dot(n, reactions[1 + k]);
     }
-    return change > negligible;
+    return change > journal_negligible_turn;
 }
 
 void gathered_set_out(struct fbd_state *state, const int *gives)

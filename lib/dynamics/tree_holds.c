@@ -74,12 +74,35 @@ static bool is_on_open_contact(const struct fbd_state *state, const struct mode 
            state->slip[state->model->tree->couplings[hold->coupling].surface] != stick;
 }
 
+/* Does row j act on link i, or on one that it carries? */
+static bool acts_beyond(const struct fbd_state *state, int j, int i)
+{
+    const struct row *row = &state->tree->rows[j];
+    for (int k = 0; k < row->port_count; k++)
+        if (row->ports[k].link >= i && row->ports[k].link < state->model->tree->links[i].end) return true;
+    return false;
+}
+
+/* Does the momentum of a mechanism in its dead centre move a joint that sticks? A row on it is then redundant,
+ * and has an acceleration. */
+static bool joint_moves_on(const struct fbd_state *state, int link)
+{
+    const struct instant at = state_instant(state);
+    for (int j = 0; j < state->model->tree->row_count; j++)
+        if (state->tree->rows[j].redundant && tree_takes_part(state->model->tree, &at, j) &&
+            acts_beyond(state, j, link) && tree_seen_acceleration(state, state->tree->rows[j].g.x2))
+            return true;
+    return false;
+}
+
 /* Does sticking friction have an acceleration? As a mechanism passes its dead centre no force along the row
  * moves it: the row is redundant, without a force, and the momentum moves it. If drives move it some row is
  * redundant, this one or a later one, and the forces are meaningless. */
-static bool moves_on(const struct fbd_state *state, const struct mode *hold)
+static bool moves_on(const struct fbd_state *state, int pair)
 {
     const struct instant at = state_instant(state);
+    const struct mode *hold = mode_of(state, pair);
+    if (mode_is_joint_friction(hold)) return joint_moves_on(state, link_of(state, pair));
     if (hold->kind != mode_tangent) return false;
     bool driven = model_has_speeds_given(state->model) && rest_is_open(state->model, &at);
     return (driven || hold_row(state, hold)->redundant) &&
@@ -184,7 +207,7 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
         bool by_rate;
         const struct mode *hold = mode_of(state, pair);
         if (!hold_in_question(state, decided, forced, pair)) continue;
-        if (state->slip[pair] == stick && moves_on(state, hold)) {
+        if (state->slip[pair] == stick && moves_on(state, pair)) {
             found = differs;
             which = pair;
             continue;

@@ -14,6 +14,9 @@
  * of the inertia of the couplings in the sum of both, which is above zero exactly if M is positive definite for
  * the motions that remain.
  *
+ * As modes are tried some ropes and contacts are loose, and the pivot may be zero: then a millionth of w is left
+ * (constraint_solve.c).
+ *
  * The result is most accurate if w is of the size of the inertia by the couplings: w is the geometric mean of
  * the smallest and the largest mass of the scene, for rotations times the square of the distance of the
  * farthest joint or coupling.

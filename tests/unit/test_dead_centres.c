@@ -350,6 +350,58 @@ static void a_moment_rises_until_it_is_not_held(void **unused)
     checks_end(&checks);
 }
 
+/* ---- the dead centre of a rope */
+
+/* Weights m1 and m2 on a rope over a pulley of the radius R on a journal bearing, k = mu r. */
+struct hoist {
+    double m1, m2, R, k;
+};
+
+/* The first weight rises beside its pulley, past the dead centre of its rope, where the pulley reverses, and
+ * back. Returns whether it passes. */
+static bool run_past(const struct hoist *h, double aside, double M, double *v, double *omega)
+{
+    char text[800];
+    snprintf(
+        text, sizeof text,
+        "fbd: 1\nbodies:\n  first: {mass: %.17g, motion: {slide: {along: 90 deg, through: [%.17g, -1]}}, "
+        "forces: [gravity]}\n  second: {mass: %.17g, motion: {slide: {along: 90 deg, through: [%.17g, -4]}}, "
+        "forces: [gravity]}\n  pulley:\n    mass: %.17g\n    shape: disc\n    radius: %.17g\n    motion: "
+        "pivot\n    moments: [friction: {bearing: 0.2, radius: %.17g}]\ncouplings:\n  - rope: {through: "
+        "[second.G, pulley, first.G]}\nsimulate: {until: 1.2 s}\n",
+        h->m1, h->R + aside, h->m2, -h->R, M, h->R, h->k / 0.2);
+    struct trial trial = trial_parse(text);
+    trial_start(&trial, NULL);
+    trial_finish(&trial);
+    const bool passes = trial_get(&trial, "first.x") > 1;
+    *v = trial_get(&trial, "first.v");
+    *omega = trial_get(&trial, "pulley.omega");
+    trial_close(&trial);
+    return passes;
+}
+
+/* A pulley without mass moves as one of a millionth of the weights does. */
+static void a_weight_rises_past_its_pulley(void **unused)
+{
+    (void)unused;
+    const double light = 1e-6, near = 1e-4;
+    const int draws = draws_of(20);
+    struct random_numbers numbers = {5105};
+    struct checks checks = {0};
+    for (int i = 0; i < draws; i++) {
+        struct hoist h = {.m1 = random_between(&numbers, 0.5, 5), .R = random_between(&numbers, 0.05, 0.5)};
+        const double aside = random_between(&numbers, 0.1, 0.5);
+        double v, omega, v_light, omega_light;
+        h.m2 = h.m1 * random_between(&numbers, 2.5, 4);
+        h.k = h.R * random_between(&numbers, 0.005, 0.3);
+        check_that(&checks, "passes", run_past(&h, aside, 0, &v, &omega));
+        check_that(&checks, "passes", run_past(&h, aside, light * h.m1, &v_light, &omega_light));
+        check_close(&checks, "v past the dead centre", v, v_light, near);
+        check_close(&checks, "omega past the dead centre", omega, omega_light, near / h.R);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -357,6 +409,7 @@ int main(void)
         cmocka_unit_test(what_rests_in_a_dead_centre_sets_out),
         cmocka_unit_test(the_limit_of_what_rests_in_a_dead_centre),
         cmocka_unit_test(a_moment_rises_until_it_is_not_held),
+        cmocka_unit_test(a_weight_rises_past_its_pulley),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

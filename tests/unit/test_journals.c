@@ -40,7 +40,7 @@ static struct hoist draw_hoist(struct random_numbers *numbers)
 {
     struct hoist hoist = {.m1 = random_between(numbers, 0.5, 5),
                           .m2 = random_between(numbers, 0.5, 5),
-                          .M = random_between(numbers, 0.1, 10),
+                          .M = random_perhaps(numbers, 0.7, 0.1, 10),
                           .R = random_between(numbers, 0.05, 0.5)};
     hoist.k = hoist.R * random_between(numbers, 0.005, 0.3);
     return hoist;
