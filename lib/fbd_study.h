@@ -115,6 +115,19 @@ typedef struct fbd_limit {
 FBD_API size_t fbd_statics_limit_count(const fbd_statics *statics);
 FBD_API fbd_limit fbd_statics_limit(const fbd_statics *statics, size_t index);
 
+typedef enum fbd_member_kind { FBD_MEMBER_ROD, FBD_MEMBER_ROPE, FBD_MEMBER_BODY } fbd_member_kind;
+
+/* A rod, a rope (each piece between pulleys), or in equilibrium a body that is loaded at two points only: it carries
+ * one force along their line. */
+typedef struct fbd_member {
+    const char *name;
+    fbd_member_kind kind;
+    double tension; /* below zero: compression */
+} fbd_member;
+
+FBD_API size_t fbd_statics_member_count(const fbd_statics *statics);
+FBD_API fbd_member fbd_statics_member(const fbd_statics *statics, size_t index);
+
 /* As fbd_diagram, at rest. */
 FBD_API size_t fbd_statics_diagram(const fbd_statics *statics, size_t body, fbd_arrow *arrows, size_t room);
 

@@ -68,20 +68,16 @@ static void write_verdict(struct text *text, const struct fbd_statics *statics)
     text_add(text, statics->limit_count > 0 ? "\n  },\n" : "},\n");
 }
 
-/* Positive in tension; for a rope one entry for each piece between pulleys. */
-static void write_tensions(struct text *text, const struct fbd_statics *statics)
+static void write_members(struct text *text, const struct fbd_statics *statics)
 {
-    const struct tree *tree = statics->model->tree;
-    bool any = false;
-    text_add(text, "  \"tensions\": [");
-    for (int i = 0; i < tree->coupling_count; i++) {
-        double tension = rest_tension(statics, i);
-        if (isnan(tension)) continue;
-        text_add(text, any ? ", {\"coupling\": " : "{\"coupling\": ");
-        any = true;
-        text_json_string(text, tree->couplings[i].name);
-        text_add(text, ", ");
-        text_json_member(text, "tension", tension, "}");
+    static const char *const kinds[] = {"rod", "rope", "body"};
+    text_add(text, "  \"members\": [");
+    for (size_t i = 0; i < statics->member_count; i++) {
+        const fbd_member *member = &statics->members[i];
+        text_add(text, i ? ", {\"name\": " : "{\"name\": ");
+        text_json_string(text, member->name);
+        text_printf(text, ", \"kind\": \"%s\", ", kinds[member->kind]);
+        text_json_member(text, "tension", member->tension, "}");
     }
     text_add(text, "],\n");
 }
@@ -143,7 +139,7 @@ char *fbd_statics_json(const fbd_statics *statics)
     text_printf(&text, ",\n  \"units\": \"%s\",\n%s", scene->units == unit_si ? "SI" : "US",
                 statics->state->degrees ? "  \"angles\": \"deg\",\n" : "");
     write_verdict(&text, statics);
-    write_tensions(&text, statics);
+    write_members(&text, statics);
     write_bodies(&text, statics);
     text_add(&text, "}\n");
     if (text.failed) text_free(&text);

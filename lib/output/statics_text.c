@@ -191,23 +191,17 @@ static void write_body(struct text *text, const struct fbd_statics *statics, siz
     write_row(text, statics, "sum", sum, moment, turns);
 }
 
-/* Rods have tension or compression, ropes tension. The pieces of a rope between pulleys each have its name. */
 static void write_members(struct text *text, const struct fbd_statics *statics)
 {
-    const struct tree *tree = statics->model->tree;
-    bool any = false;
-    for (int i = 0; i < tree->coupling_count; i++) {
-        double tension = rest_tension(statics, i);
-        if (isnan(tension)) continue;
-        tension = without_rounding(statics, tension, 1);
-        text_add(text, any ? "" : "\nRods and ropes\n");
-        any = true;
-        text_printf(text, "  %s", tree->couplings[i].name);
+    if (statics->member_count > 0) text_add(text, "\nTwo-force members\n");
+    for (size_t i = 0; i < statics->member_count; i++) {
+        double tension = without_rounding(statics, statics->members[i].tension, 1);
+        text_printf(text, "  %s", statics->members[i].name);
         text_pad(text, 27);
         text_number(text, fabs(tension), digits);
-        text_printf(text, " %s %s\n", force_unit(statics->model),
-                    tension > 0   ? "tension"
-                    : tension < 0 ? "compression"
+        text_printf(text, " %s%s\n", force_unit(statics->model),
+                    tension > 0   ? " tension"
+                    : tension < 0 ? " compression"
                                   : "");
     }
 }

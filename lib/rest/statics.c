@@ -11,6 +11,7 @@
 #include "dynamics/nonfinite.h"
 #include "dynamics/project.h"
 #include "fbd_study.h"
+#include "rest/members.h"
 #include "rest/start.h"
 
 /* ---- the start must satisfy its couplings */
@@ -154,7 +155,7 @@ static bool solve(struct fbd_statics *statics)
     statics->force = system.force;
     statics->length = system.length;
     solved = solved && find_limits(statics, &system) && rest_name_undetermined(statics, &system) &&
-             rest_find_unbalanced(statics, &system) && draw_diagrams(statics);
+             rest_find_unbalanced(statics, &system) && draw_diagrams(statics) && rest_find_members(statics);
     rest_free(&system);
     return solved;
 }

@@ -37,9 +37,10 @@ struct fbd_statics {
     double force, length;          /* scales: of the loads, of the arms */
     double left;                   /* residual of Q, relative to the size of the loads */
     struct rest_diagram *diagrams; /* by body */
-    size_t unbalanced_count, limit_count, undetermined_count;
+    size_t unbalanced_count, limit_count, undetermined_count, member_count;
     fbd_unbalanced *unbalanced;
     fbd_limit *limits;
+    fbd_member *members;
     const char **undetermined;
 };
 

@@ -21,7 +21,7 @@ from ._inputs import Now
 from ._linear import Linearization, Transfer
 from ._model import Model, check
 from ._notes import AccuracyNotReached, Error, Fix, Note, RunFailed, Warning
-from ._records import (Arrow, Coordinate, Drift, Energy, Equation, Event, HandCheck, Inertia, Limit, Mode, Parameter, Progress,
+from ._records import (Arrow, Coordinate, Drift, Energy, Equation, Event, HandCheck, Inertia, Limit, Member, Mode, Parameter, Progress,
                        Stats, Unbalanced)
 from ._run import Run
 from ._section import Cut, Section
@@ -35,7 +35,7 @@ __version__: str = _text_at(_lib.fbd_version())
 # Without `Warning`, which would take the place of Python's own.
 __all__ = [
     "AccuracyNotReached", "Arrow", "Coordinate", "Cost", "CostPoint", "Cut", "Drift", "Effect", "Effects", "Energy",
-    "Equation", "Equations", "Error", "Event", "Finding", "Fit", "Fitted", "Fix", "Found", "Gap", "Grade", "HandCheck", "Inertia", "Key", "Limit", "Linearization", "Mode", "Model",
+    "Equation", "Equations", "Error", "Event", "Finding", "Fit", "Fitted", "Fix", "Found", "Gap", "Grade", "HandCheck", "Inertia", "Key", "Limit", "Linearization", "Member", "Mode", "Model",
     "Note", "Now", "Parameter", "Progress", "Run", "RunFailed", "Section", "Simulation", "Solution", "State", "Statics", "Stats", "SweepTable", "Transfer", "Unbalanced",
     "assert_derivation", "check", "schema",
 ]

@@ -188,6 +188,15 @@ class Mode:
 
 
 @dataclass(frozen=True)
+class Member:
+    """A two-force member: a rod, a rope, or a body that is loaded at two points only."""
+
+    name: str
+    kind: str  #: "rod", "rope" or "body"
+    tension: float  #: N; below zero: compression
+
+
+@dataclass(frozen=True)
 class Limit:
     """What a surface, a friction or a rope has to bear at rest, and whether it does."""
 

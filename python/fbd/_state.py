@@ -8,7 +8,7 @@ from typing import Any, Dict, Iterator, Mapping, Optional, Tuple
 from ._binding import ffi, lib
 from ._library import bytes_of, checked, made, number, owned, taken, text_at
 from ._linear import Linearization, Names
-from ._records import Arrow, Coordinate, Equation, Limit, Unbalanced, from_struct, picture, preformatted
+from ._records import Arrow, Coordinate, Equation, Limit, Member, Unbalanced, from_struct, picture, preformatted
 from ._section import Section
 
 
@@ -92,6 +92,7 @@ class Equations(Mapping[str, Equation]):
 
 
 _limit_kinds = {lib.FBD_LIMIT_NORMAL: "normal", lib.FBD_LIMIT_FRICTION: "friction", lib.FBD_LIMIT_ROPE: "rope"}
+_member_kinds = {lib.FBD_MEMBER_ROD: "rod", lib.FBD_MEMBER_ROPE: "rope", lib.FBD_MEMBER_BODY: "body"}
 
 
 class Statics:
@@ -103,6 +104,7 @@ class Statics:
     undetermined: Tuple[str, ...]  #: reactions that equilibrium does not determine, "beam.pin in x"
     unbalanced: Tuple[Unbalanced, ...]  #: what would hold a scene that moves
     limits: Tuple[Limit, ...]
+    members: Tuple[Member, ...]  #: two-force members and their forces
     diagram: Dict[str, Tuple[Arrow, ...]]  #: of each body
 
     def __init__(self, state: "State"):
@@ -118,6 +120,8 @@ class Statics:
         )
         limits = [lib.fbd_statics_limit(handle, i) for i in range(lib.fbd_statics_limit_count(handle))]
         self.limits = tuple(from_struct(Limit, limit, kind=_limit_kinds[limit.kind]) for limit in limits)
+        members = [lib.fbd_statics_member(handle, i) for i in range(lib.fbd_statics_member_count(handle))]
+        self.members = tuple(from_struct(Member, member, kind=_member_kinds[member.kind]) for member in members)
         self.diagram = _diagrams(lib.fbd_statics_diagram, handle, state._model)
         self._text = taken(lib.fbd_statics_text(handle))
         self._json = taken(lib.fbd_statics_json(handle))

@@ -21,7 +21,7 @@ check 'with a warning' says 'warning: statically indeterminate to degree 1.*\[in
 check 'JSON in place of the text' exits 0 run --static --json - "$models/statics/truss.yaml"
 check 'is one object with the verdict' json 'it["equilibrium"] and it["indeterminacy"] == 0 and it["mobility"] == 0'
 check 'with forces by body and name' json 'abs(it["forces"]["E"]["normal"]["fy"] - 500) < 1e-9'
-check 'with tensions' json '[abs(e["tension"] - 577.350269189626) < 1e-9 for e in it["tensions"] if e["coupling"] == "BC"] == [True]'
+check 'with members' json '[abs(e["tension"] - 577.350269189626) < 1e-9 for e in it["members"] if e["name"] == "BC"] == [True]'
 check 'with sums' json 'all(abs(b["fx"]) + abs(b["fy"]) < 1e-9 for b in it["balance"].values())'
 check 'JSON to a file leaves the text' exits 0 run --static --json a.json "$models/statics/beam.yaml"
 check 'which is there' says 'in equilibrium' out

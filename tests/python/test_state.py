@@ -106,6 +106,14 @@ def test_statics():
     assert str(statics) in fbd_run("--static", MODELS / "statics/ladder.yaml")
 
 
+def test_two_force_members():
+    truss = fbd.Model(MODELS / "statics/truss.yaml").statics()
+    members = {member.name: member for member in truss.members}
+    assert len(members) == 7 and all(member.kind == "rod" for member in truss.members)
+    assert members["BD"].tension == pytest.approx(-1000 / math.sqrt(3), rel=1e-12)
+    assert members["AC"].tension == pytest.approx(500 / math.sqrt(3), rel=1e-12)
+
+
 def test_statics_of_what_moves_say_what_would_hold_it(pendulum):
     statics = pendulum.statics()
     assert not statics.holds

@@ -45,7 +45,7 @@ class Node(dict):
         return self.times(what)[0]
 
     def tension(self, coupling):
-        return next(rope["tension"] for rope in self["tensions"] if rope["coupling"] == coupling)
+        return next(member["tension"] for member in self["members"] if member["name"] == coupling)
 
 
 class Equations:
