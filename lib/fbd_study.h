@@ -246,7 +246,8 @@ FBD_API fbd_method fbd_method_find(const char *name);
 
 /* The exact solution that the file gives (`exact`) at a time: the value, and its derivative by time, of quantity
  * `quantity`: coordinate `quantity`, or beyond these the rate of coordinate `quantity` minus their number. That of
- * a rate follows from its coordinate where the file does not give it. Returns false where the file gives none. */
+ * a rate follows from its coordinate where the file does not give it. Returns false where the file gives none, and
+ * where callbacks compute inputs: it holds for their constants. */
 FBD_API bool fbd_model_exact(const fbd_model *model, size_t quantity, double t, double *value,
                              double *derivative);
 

@@ -8,7 +8,7 @@
 bool fbd_model_exact(const fbd_model *model, size_t quantity, double t, double *value, double *derivative)
 {
     size_t n = model ? model->scene->coordinate_count : 0;
-    if (quantity >= 2 * n || !value || !derivative) return false;
+    if (quantity >= 2 * n || !value || !derivative || scene_has_calls(model->scene)) return false;
     size_t coordinate = quantity % n;
     const struct body *body = &model->scene->bodies[model->scene->coordinates[coordinate].body];
     size_t k = coordinate - (size_t)body->first, count = (size_t)body->count;

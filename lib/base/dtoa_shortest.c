@@ -75,8 +75,8 @@ static bool scale_to_17(double value, struct scaled *scaled)
     scaled->m = (bits & (least_mantissa - 1)) | least_mantissa;
     scaled->exponent = (int)((log2 * INT64_C(1292913986)) >> 32); /* of 2^log2: the same or one less */
     for (int tries = 0; tries < 2; tries++, scaled->exponent++) {
-        int scale = most_digits - 1 - scaled->exponent;
-        if (!is_wide || scale < -greatest_scale || scale > greatest_scale) return false;
+        const int scale = most_digits - 1 - scaled->exponent;
+        if (scale < -greatest_scale || scale > greatest_scale) return false;
         scale_by(scaled, exponent + scale, scale);
         if (scaled->whole / 10 < ten_to_16) return true;
     }
@@ -144,7 +144,7 @@ static void write_eight(char *digits, uint32_t part)
                                 "70717273747576777879"
                                 "80818283848586878889"
                                 "90919293949596979899";
-    const uint32_t high = part / 10000, low = part % 10000;
+    const size_t high = part / 10000, low = part % 10000;
     memcpy(digits, pairs + 2 * (high / 100), 2);
     memcpy(digits + 2, pairs + 2 * (high % 100), 2);
     memcpy(digits + 4, pairs + 2 * (low / 100), 2);
@@ -165,7 +165,7 @@ static int write_decimal(char *buffer, uint64_t decimal, int count, int exponent
 /* The part common to all functions: the check of the range, which leaves out subnormal numbers. False outside it. */
 static bool begin(struct scaled *scaled, double value)
 {
-    return value != 0 && isfinite(value) && scale_to_17(fabs(value), scaled);
+    return is_wide && value != 0 && isfinite(value) && scale_to_17(fabs(value), scaled);
 }
 
 /* Write a decimal of so many digits, in units of `step`; rounding of 9.99... may have given 10. */

@@ -158,8 +158,8 @@ extern const struct constraint_form constraint_forms[constraint_kinds];
 void zero_start(const struct view *view, const struct coupling *coupling, struct coupling_state *state,
                 struct row *rows);
 
-/* The rows of a pin with their variations. */
-void pin_along(const struct view *view, const struct coupling *coupling, struct row *rows);
+void pin_rows(const struct view *view, const struct coupling *coupling, const struct coupling_state *state,
+              struct row *rows);
 
 /* Add to a row forces of the given size at the ends of a diameter of radius r: a couple on end 0, its opposite on 1. */
 void add_couples(const struct coupling *coupling, double r, double force, struct row *row);
@@ -203,7 +203,7 @@ struct room slot_room(const struct view *view, const struct coupling *coupling,
 void ratio_row(const struct view *view, const struct coupling *coupling, const struct coupling_state *state,
                struct row *row);
 
-/* constraint_weld.c */
+/* constraint_pin.c */
 void weld_rows(const struct view *view, const struct coupling *coupling, const struct coupling_state *state,
                struct row *rows);
 void weld_start(const struct view *view, const struct coupling *coupling, struct coupling_state *state,

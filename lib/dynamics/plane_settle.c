@@ -155,13 +155,13 @@ static struct vec disc_force(const struct disc *disc, struct vec b, bool *slips)
 /* The acceleration of point i by all forces but its own. */
 static struct vec by_others(const struct at_rest *rest, int i)
 {
-    const int size = 2 * rest->count;
-    double sum[2] = {rest->b[2 * i], rest->b[2 * i + 1]};
-    for (int k = 0; k < 2; k++)
-        for (int j = 0; j < rest->count; j++)
-            if (j != i)
-                sum[k] += rest->W[(2 * i + k) * size + 2 * j] * rest->f[j].x +
-                          rest->W[(2 * i + k) * size + 2 * j + 1] * rest->f[j].y;
+    const size_t size = 2 * (size_t)rest->count, first = 2 * (size_t)i;
+    double sum[2] = {rest->b[first], rest->b[first + 1]};
+    for (int k = 0; k < 2; k++) {
+        const double *answers = rest->W + (first + (size_t)k) * size;
+        for (int j = 0; j < rest->count; j++, answers += 2)
+            if (j != i) sum[k] += answers[0] * rest->f[j].x + answers[1] * rest->f[j].y;
+    }
     return (struct vec){sum[0], sum[1]};
 }
 

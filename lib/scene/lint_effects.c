@@ -88,7 +88,7 @@ static bool falls(const struct scene *scene)
 /* Of files that use none of their lines, with bodies that can fall. */
 static void note_unused_lines(struct reader *reader)
 {
-    const size_t count = reader->lines ? reader->lines->count : 0;
+    const size_t count = reader->lines && reader->ground_lines ? reader->lines->count : 0;
     for (size_t i = 0; i < count; i++)
         if (reader->ground_lines[i].used) return;
     if (count == 0 || !falls(reader->scene)) return;

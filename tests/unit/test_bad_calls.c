@@ -384,6 +384,9 @@ static void statics(void **context)
     ANSWERS(fbd_statics_limit_count, fbd_statics_limit_count(NULL) == 0);
     ANSWERS(fbd_statics_limit, is_nan(fbd_statics_limit(NULL, 0).needed));
     ANSWERS(fbd_statics_limit, is_nan(fbd_statics_limit(at_rest, past).needed));
+    ANSWERS(fbd_statics_member_count, fbd_statics_member_count(NULL) == 0);
+    ANSWERS(fbd_statics_member, is_nan(fbd_statics_member(NULL, 0).tension));
+    ANSWERS(fbd_statics_member, is_nan(fbd_statics_member(at_rest, past).tension));
     ANSWERS(fbd_statics_diagram, fbd_statics_diagram(NULL, 0, NULL, 0) == 0);
     ANSWERS(fbd_statics_diagram, fbd_statics_diagram(at_rest, past, NULL, 0) == 0);
     ANSWERS(fbd_statics_diagram, fbd_statics_diagram(at_rest, 0, NULL, 4) > 0);

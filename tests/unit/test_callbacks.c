@@ -258,6 +258,25 @@ static void it_is_linearized_by_differences(void **unused)
     fbd_errors_free(errors);
 }
 
+/* A closed form of the file holds for its constants. */
+static void a_closed_form_is_that_of_constants(void **unused)
+{
+    (void)unused;
+    static const char push[] =
+        "fbd: 1\n"
+        "inputs: {F: 2 N}\n"
+        "bodies:\n"
+        "  b: {mass: 1 kg, motion: {slide: {along: 0 deg}},\n"
+        "      forces: [{applied: {name: F, value: LAW}}], exact: {x: \"1[m/s^2]*t^2\"}}\n"
+        "simulate: {until: 1 s}\n";
+    double value, derivative;
+    fbd_model *constant = model_of(push, "F"), *model = called(push, "F", no_force, NULL);
+    assert_true(fbd_model_exact(constant, 0, 1, &value, &derivative) && value == 1 && derivative == 2);
+    assert_false(fbd_model_exact(model, 0, 1, &value, &derivative));
+    fbd_model_free(constant);
+    fbd_model_free(model);
+}
+
 static void a_callback_that_fails_ends_the_run(void **unused)
 {
     (void)unused;
@@ -291,6 +310,7 @@ int main(void)
         cmocka_unit_test(error_bars_call_it_again),
         cmocka_unit_test(its_value_is_that_at_the_state),
         cmocka_unit_test(it_is_linearized_by_differences),
+        cmocka_unit_test(a_closed_form_is_that_of_constants),
         cmocka_unit_test(a_callback_that_fails_ends_the_run),
         cmocka_unit_test(wrong_names_are_refused),
     };

@@ -1,7 +1,6 @@
 "use strict";
 
-// Couplings: pins, welds, massless rods, ropes over pulleys, gears, racks, lines with rolling circles; and bodies without a
-// shape in the file, drawn by the points where joints and couplings act.
+// Couplings; and bodies without a shape in the file, drawn by the points where joints and couplings act.
 
 function couplingEnd(end, frameOf) {
   return end.body < 0 ? end.point : place(frameOf(end.body), ...end.point);
@@ -19,7 +18,7 @@ function inFrame(frame, [x, y]) {
 
 // ---- preparation, from the motion of the whole run
 
-// Find the range of the line that the circle covers, in the line's frame; the line of a rack touches the circle.
+// The range of the line that the circle covers, in its frame; the line of a rack touches the circle.
 function prepareLine(coupling) {
   const [circle, line] = coupling.ends, [ex, ey] = coupling.e;
   coupling.n = [-ey * coupling.side, ex * coupling.side];
@@ -58,7 +57,7 @@ function prepareGear(coupling) {
   });
 }
 
-// The points of a body's joints, couplings and springs, without duplicates.
+// The points of a body's joints, couplings and springs, once each.
 function jointsOf(index) {
   const row = rowAt(run.start), frame = frameAt(run.bodies[index], run.start, row), found = [];
   const add = (point) => {
@@ -97,7 +96,7 @@ function lineEnds(coupling) {
   return coupling.span.map((s) => [x + s * ex + coupling.lift * nx, y + s * ey + coupling.lift * ny]);
 }
 
-// For bodies without a shape that carry a slide: find the required range of its line.
+// The range of the line of a slide on a body without a shape.
 function prepareWedges() {
   for (const body of run.bodies) {
     const under = body.line && run.bodies[body.line.on];
@@ -111,7 +110,7 @@ function prepareWedges() {
   }
 }
 
-// The corners of a wedge in its frame: the line below the sliding body, and a base parallel to the wedge's own motion.
+// The corners of a wedge in its frame: the line below the sliding body, and a base along the wedge's motion.
 function wedgeCorners(body) {
   const { from, through, along, normal, reach } = body.wedge, down = reach || view.block * 0.7 / view.scale;
   const top = from.map((s) => [0, 1].map((k) => through[k] + s * along[k] - down * normal[k]));
@@ -125,7 +124,7 @@ function wedgeReach(body) {
   return body.wedge ? Math.max(0, -wedgeCorners(body)[2][1]) : 0;
 }
 
-// Points of couplings that the picture must contain at a time.
+// Points of couplings that the picture must contain.
 function tiePoints(frameOf) {
   const points = [];
   for (const coupling of run.couplings) {
@@ -186,7 +185,7 @@ function drawBoard(coupling, frame) {
   strokeWith(tone.edge, 1.2);
 }
 
-// Fill the area in a closed curve, as of a cam.
+// The area in a closed curve, as of a cam.
 function drawCam({ ends, points }, frame) {
   const [x, y] = points[0], [endX, endY] = points[points.length - 1];
   if (Math.hypot(endX - x, endY - y) * view.scale > 1) return;
@@ -205,7 +204,7 @@ function drawPlate(points, body) {
   strokeWith(tone.edge, 1.6);
 }
 
-// Draw a body without a shape: a wedge under a slide, the wheel of a gear, or a plate or bar through its joints.
+// A body without a shape: a wedge under a slide, the wheel of a gear, or a plate or bar through its joints.
 function drawShapeless(body, frame) {
   if (body.wedge) {
     drawPlate(wedgeCorners(body).map((point) => toScreen(place(frame, ...point))), body);
@@ -235,7 +234,7 @@ function straightPiece(from, to, sR1, sR2) {
   return [[from[0] + sR1 * uy, from[1] - sR1 * ux], [to[0] + sR2 * uy, to[1] - sR2 * ux]];
 }
 
-// Draw a slack rope between two points with constant length: near its taut length the sag is that of a flat parabola,
+// A slack rope of constant length between two points: near its taut length the sag is that of a flat parabola,
 // sqrt(3 c (L - c) / 8), and with coincident ends nearly half the rope.
 function hangLoose([from, to], length) {
   const chord = Math.hypot(to[0] - from[0], to[1] - from[1]);
@@ -251,19 +250,19 @@ function isSlack(coupling, t, row) {
   return coupling.force >= 0 && Math.hypot(valueAt(coupling.force, t, row), valueAt(coupling.force + 1, t, row)) < 1e-5 * view.force;
 }
 
-// Stroke the current path as a rope: dashed when slack, else with strands.
+// The current path as a rope: dashed when slack, else with strands.
 function strokeRope(slack) {
   strokeWith(tone.rope, slack ? 2 : 3, slack ? [5, 4] : []);
   if (!slack) strokeWith(tone.strand, 1.2, [3, 3]);
 }
 
-// Draw the wound part of a rope as a full circle.
+// The wound part of a rope: a full circle.
 function drawCoil(center, radius) {
   disc(center, radius * view.scale);
   strokeRope(false);
 }
 
-// Draw one part of a rope from pulley to pulley, and its arc on the pulley where the previous part ends.
+// One part of a rope between pulleys, and its arc on the pulley where the part before ends.
 function drawRope(coupling, before, frames, t, row) {
   const places = coupling.ends.map((end) => couplingEnd(end, (b) => frames[b])), ways = coupling.ends.map((end) => end.side * end.radius);
   const slack = isSlack(coupling, t, row), points = [];
@@ -284,7 +283,7 @@ function drawRope(coupling, before, frames, t, row) {
   coupling.reached = points[points.length - 1];
 }
 
-// Draw both strands, and the belt all around its discs.
+// Both strands, and the belt all around its discs.
 function drawBelt(coupling, frames) {
   const [a, b] = coupling.ends.map((end) => couplingEnd(end, (body) => frames[body])), [sA, sB] = coupling.ends.map((end) => end.side * end.radius);
   for (const strand of [straightPiece(a, b, sA, sB), straightPiece(b, a, sB, sA)]) {
@@ -294,7 +293,7 @@ function drawBelt(coupling, frames) {
   coupling.ends.forEach((end, k) => drawCoil(toScreen(k ? b : a), end.radius));
 }
 
-// Draw pitch circles as dash-dotted lines, and the teeth.
+// Dash-dotted pitch circles, and the teeth.
 function drawGear(coupling, frames) {
   for (const end of coupling.ends) {
     const frame = frames[end.body], [x, y] = toScreen(place(frame, ...end.point)), r = Math.abs(end.radius) * view.scale;
@@ -310,7 +309,7 @@ function drawGear(coupling, frames) {
   }
 }
 
-// Draw the groove, or the face of a cam, and its pin or roller.
+// The groove, or the face of a cam, and its pin or roller.
 function drawSlot(coupling, frames) {
   const frame = (end) => end.body < 0 ? null : frames[end.body], [pin, slot] = coupling.ends, on = frame(slot);
   path(coupling.points.map((point) => toScreen(on ? place(on, ...point) : point)));
@@ -325,14 +324,11 @@ function drawPin([x, y]) {
   strokeWith(tone.edge, 1.4);
 }
 
-// The cross of a weld.
 function drawWeld([x, y]) {
-  pen.beginPath();
-  for (const side of [-1, 1]) {
-    pen.moveTo(x - 4, y - 4 * side);
-    pen.lineTo(x + 4, y + 4 * side);
+  for (const d of [-4, 4]) {
+    path([[x - 4, y - d], [x + 4, y + d]]);
+    strokeWith(tone.edge, 2);
   }
-  strokeWith(tone.edge, 2);
 }
 
 function drawTiesOver(frames, t, row) {
