@@ -7,6 +7,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include <cmocka.h>
 
@@ -79,12 +80,11 @@ static int no_force(void *context, double t, const double *y, double *value)
 static char *text_with(const char *scene, const char *law)
 {
     const char *at = strstr(scene, "LAW");
-    const size_t before = (size_t)(at - scene), length = strlen(scene) + strlen(law);
-    char *text = malloc(length);
+    const size_t size = strlen(scene) + strlen(law) + 1;
+    assert_non_null(at);
+    char *text = malloc(size);
     assert_non_null(text);
-    memcpy(text, scene, before);
-    memcpy(text + before, law, strlen(law));
-    memcpy(text + before + strlen(law), at + 3, strlen(at + 3) + 1);
+    snprintf(text, size, "%.*s%s%s", (int)(at - scene), scene, law, at + strlen("LAW"));
     return text;
 }
 
@@ -144,6 +144,7 @@ static void compare(struct checks *checks, const fbd_model *by_call, const fbd_m
     const size_t events = fbd_simulation_event_count(want.simulation), n = fbd_model_coordinate_count(by_law);
     assert_int_equal(fbd_result_outcome(got.result), FBD_DONE);
     assert_int_equal(fbd_result_outcome(want.result), FBD_DONE);
+    assert_true(n > 0);
     assert_int_equal(fbd_simulation_event_count(got.simulation), events);
     for (size_t i = 0; i < events; i++) {
         const fbd_event a = fbd_simulation_event(got.simulation, i),
