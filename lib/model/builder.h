@@ -54,6 +54,9 @@ bool ratios_check(struct builder *builder);
 /* Reject welds of particles, but at their first end, and welds between bodies that are one already (weld_check.c). */
 void welds_check(struct builder *builder);
 
+/* Reject more static than kinetic friction on planes that are linked (plane_check.c). */
+void planes_check(struct builder *builder);
+
 /* Reject contacts between points that do not move on one line (contact_points.c). */
 void contacts_check(struct builder *builder);
 

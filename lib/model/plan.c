@@ -205,6 +205,7 @@ bool plan_build(struct builder *builder)
     pack(builder);
     contacts_check(builder);
     welds_check(builder);
+    planes_check(builder);
     if (!ratios_check(builder) || !tree_finish(model) || !scalar_equations_collect(builder)) return false;
     find_constant_slots(model);
     return true;
