@@ -347,8 +347,8 @@ FBD_API fbd_spring fbd_view_spring(const fbd_view *view, size_t index);
  * that move, a contact one for each of its points that can touch at once. Past the last one the texts are NULL.
  */
 typedef struct fbd_coupling {
-    const char *kind; /* "pin", "weld", "rod", "gear", "rack", "ratio", "roll", "slot", "belt", "rope" or
-                       * "contact" */
+    /* "pin", "weld", "rod", "gear", "rack", "ratio", "roll", "slot", "belt", "rope", "plane" or "contact" */
+    const char *kind;
     const char *name;
     size_t entry; /* the number in the file of the coupling or contact that it belongs to, from 0 */
     size_t end_count;

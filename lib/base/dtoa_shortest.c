@@ -44,7 +44,7 @@ static uint64_t power_of_five(int exponent)
     return powers[exponent];
 }
 
-/* m 2^twos 5^scale. At 17 digits the shift to the right is at most 64 + 63 bits, and nothing is lost to the left. */
+/* m 2^twos 5^scale. Of numbers with 17 digits before the point no shift is longer than 63 bits. */
 static void scale_by(struct scaled *scaled, int twos, int scale)
 {
     uint64_t five = power_of_five(scale >= 0 ? scale : -scale);

@@ -11,10 +11,12 @@
  *
  *     f = -c_k s w / |w|,   w = u + nu e,   s = sign(e . w)
  *
- * with a negligible speed nu. Without it the direction of u at a start from rest would be that of round-off, and the stages
- * of an explicit step, however short, would amplify it by c over the acceleration. So along a straight path the right-hand side continues smoothly through u = 0, and e . u crosses zero
- * there. With other forces u approaches zero along a curve, whose direction near its end is that of these forces:
- * e . u is zero where u has turned by a right angle as well, and then e is renewed only.
+ * with a negligible speed nu. Without it the direction of u at a start from rest would be that of round-off, and the
+ * stages of an explicit step, however short, would amplify it by c over the acceleration. So along a straight path the
+ * right-hand side continues smoothly through u = 0, and e . u crosses zero there. With other forces u approaches zero
+ * along a curve, whose direction near its end is that of these forces: e . u is zero where u has turned by a right angle
+ * as well, and then e is renewed only. In the microseconds of a start an explicit method may still turn u: where that
+ * could break other friction away the scene is refused (model/plane_check.c).
  *
  * At rest the forces lambda_i of the points that may stick minimize
  *

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Reject static friction on a plane that the start of another body's slip could break. As a body begins to slip, its
- * friction has the direction of a velocity near zero, which is known to rounding only. Where that force reaches another
- * body, one that is held by more static than kinetic friction could break away by rounding alone.
+ * Reject static friction that the start of a slip on a plane could break. As a body begins to slip, its friction has
+ * the direction of a velocity near zero, which is known to rounding only. Where that force reaches dry friction of any
+ * kind that holds by more static than kinetic friction, rounding could break it away.
  */
 #include "model/builder.h"
 
 static bool holds_by_more(const struct mode *mode)
 {
-    return mode->kind == mode_plane &&
+    return mode_is_friction(mode) &&
            (mode->mu_s.expr || mode->mu_k.expr || mode->mu_s.constant > mode->mu_k.constant);
 }
 
@@ -28,23 +28,31 @@ static bool may_be_linked(const struct fbd_model *model)
     return linked;
 }
 
+static void refuse(struct builder *builder, const char *name, struct pos at)
+{
+    diag_add(builder->errors, FBD_ERROR, "not-here", at,
+             "let `static` be `kinetic`, or drive the body that is the plane",
+             "the static friction of `%s` is larger than its kinetic friction, and a body that begins to "
+             "slip on a "
+             "plane may break it by forces between them: such a start is not decided to rounding",
+             name);
+}
+
 void planes_check(struct builder *builder)
 {
     const struct fbd_model *model = builder->model;
     const struct scene *scene = model->scene;
-    size_t planes = 0;
+    int planes = 0;
     for (size_t i = 0; i < scene->constraint_count; i++)
         planes += scene->constraints[i].kind == constraint_plane;
-    for (size_t i = 0; planes > 1 && i < model->plan.mode_count; i++) {
+    for (size_t i = 0; planes > 0 && i < model->plan.mode_count; i++) {
         const struct mode *mode = &model->plan.modes[i];
-        if (!holds_by_more(mode) || !may_be_linked(model)) continue;
-        const struct constraint *source = model->tree->couplings[mode->coupling].source;
-        diag_add(
-            builder->errors, FBD_ERROR, "not-here", source->at,
-            "let `static` be `kinetic`, or drive the body that they lie on",
-            "the static friction of `%s` is larger than its kinetic friction, and other bodies on planes may "
-            "break it by forces between them: such a start is not decided to rounding",
-            source->name);
+        const int others = planes - (mode->kind == mode_plane);
+        if (others == 0 || !holds_by_more(mode) || !may_be_linked(model)) continue;
+        const struct constraint *source =
+            mode->coupling >= 0 ? model->tree->couplings[mode->coupling].source : NULL;
+        const struct load *load = source ? NULL : model->loads[mode->load].source;
+        refuse(builder, source ? source->name : load->name, source ? source->at : load->at);
         return;
     }
 }

@@ -52,6 +52,7 @@ BEYOND = {
     "plane_on_a_particle.yaml": "how the body moves",
     "plane_with_two_points.yaml": "two places of the file",
     "plane_static_and_linked.yaml": "several bodies together",
+    "plane_and_static_bearing.yaml": "several frictions together",
     "plane_with_gravity.yaml": "needed in a vertical plane",
     "plane_with_directed_gravity.yaml": "needed in a vertical plane",
     "belt_without_tension.yaml": "needed where the axes keep their distance",

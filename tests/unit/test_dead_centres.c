@@ -161,8 +161,10 @@ static void set_out(const struct flywheel *wheel, double *theta, double *t, doub
     struct lint_friction on;
     double a = fabs(acceleration(wheel, *theta + wheel->way * least, 0, &on)), way = least;
     *t = sqrt(2 * way / a), *u = 2 * a * way;
-    for (; way < most; way *= 1 + share)
+    while (way < most) {
         step(wheel, wheel->theta_0 + wheel->way * way, wheel->way * share * way, t, u);
+        way *= 1 + share;
+    }
     *theta += wheel->way * way;
 }
 
@@ -357,8 +359,8 @@ struct hoist {
     double m1, m2, R, k;
 };
 
-/* The first weight rises beside its pulley, past the dead centre of its rope, where the pulley reverses, and
- * back. Returns whether it passes. */
+/* The first weight rises beside its pulley, past the dead centre of its rope, level with the axis, where the
+ * pulley reverses, and back. Returns whether it passes. */
 static bool run_past(const struct hoist *h, double aside, double M, double *v, double *omega)
 {
     char text[800];
@@ -368,12 +370,12 @@ static bool run_past(const struct hoist *h, double aside, double M, double *v, d
         "forces: [gravity]}\n  second: {mass: %.17g, motion: {slide: {along: 90 deg, through: [%.17g, -4]}}, "
         "forces: [gravity]}\n  pulley:\n    mass: %.17g\n    shape: disc\n    radius: %.17g\n    motion: "
         "pivot\n    moments: [friction: {bearing: 0.2, radius: %.17g}]\ncouplings:\n  - rope: {through: "
-        "[second.G, pulley, first.G]}\nsimulate: {until: 1.2 s}\n",
+        "[second.G, pulley, first.G]}\nsimulate: {until: 1.2 s, events: [{name: past, when: first.y > 0}]}\n",
         h->m1, h->R + aside, h->m2, -h->R, M, h->R, h->k / 0.2);
     struct trial trial = trial_parse(text);
     trial_start(&trial, NULL);
     trial_finish(&trial);
-    const bool passes = trial_get(&trial, "first.x") > 1;
+    const bool passes = trial.outcome == FBD_DONE && trial_event(&trial, FBD_EVENT_USER, "past", 0) > 0;
     *v = trial_get(&trial, "first.v");
     *omega = trial_get(&trial, "pulley.omega");
     trial_close(&trial);
