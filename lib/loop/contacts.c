@@ -490,7 +490,8 @@ void run_release_contacts(struct run *run)
         changed[i] = false;
         if (tree->couplings[i].kind != constraint_contact) continue;
         bool now = is_closed(run, run->state, i);
-        changed[i] = now != run->contacts.was_closed[i] && !run->state->tree->couplings[i].gone;
+        changed[i] =
+            now != run->contacts.was_closed[i] && !coupling_is_gone(run->state->tree, &tree->couplings[i]);
         run->contacts.was_closed[i] = now;
         if (!now) run->state->tree->couplings[i].feature = no_feature;
         if (changed[i]) note_change(run, i);

@@ -223,16 +223,25 @@ static void add_following(struct builder *builder, const struct model_body *body
     tree->following[tree->following_count++] = (struct tree_following){body->place.link, turned, moment};
 }
 
+/* Is it the same at all times? */
+static bool is_steady(const struct model_load *load, const struct formula *value)
+{
+    return formula_is_constant(value) && load->source->lifetime.number == 0;
+}
+
 /* The opposite acts on `partner`, NULL for none. */
 static void add_moment(struct builder *builder, const struct model_body *body,
-                       const struct model_body *partner, const struct formula *value)
+                       const struct model_body *partner, const struct model_load *load,
+                       const struct formula *value)
 {
     struct tree *tree = builder->model->tree;
     const struct vec none = {0, 0};
     if (formula_is_constant(value) && value->constant == 0) return;
-    if (!formula_is_constant(value)) {
-        tree->moments[tree->moment_count++] =
-            (struct tree_moment){body->place.link, partner ? partner->place.link : 0, *value};
+    if (!is_steady(load, value)) {
+        tree->moments[tree->moment_count++] = (struct tree_moment){.link = body->place.link,
+                                                                   .partner = partner ? partner->place.link : 0,
+                                                                   .lifetime = load->source->lifetime.number,
+                                                                   .value = *value};
         return;
     }
     add_following(builder, body, none, none, value->constant);
@@ -249,6 +258,7 @@ static void add_varying(struct builder *builder, const struct model_body *body, 
                             .point = placement_point(&body->place, load->point),
                             .turn = turn,
                             .body_frame = body_frame,
+                            .lifetime = load->source->lifetime.number,
                             .value = *value,
                             .angle = angle,
                             .direction = vec_unit(angle.constant + turn)};
@@ -260,7 +270,7 @@ static void add_directed(struct builder *builder, const struct model_body *body,
                          bool body_frame)
 {
     struct vec f = vec_scale(value->constant, vec_unit(angle));
-    if (!formula_is_constant(value))
+    if (!is_steady(load, value))
         add_varying(builder, body, load, body_frame, value, formula_constant(angle));
     else if (body_frame)
         add_following(builder, body, load->point, f, 0);
@@ -282,7 +292,7 @@ static void add_applied(struct builder *builder, const struct model_body *body, 
     } else {
         add_varying(builder, body, load, frame, &load->value, load->angle);
     }
-    if (load_is_placed(load->source)) add_moment(builder, body, NULL, &load->couple);
+    if (load_is_placed(load->source)) add_moment(builder, body, NULL, load, &load->couple);
 }
 
 /* Add the term of the wind, and the drag as in still air. */
@@ -297,8 +307,21 @@ static void add_drag(struct builder *builder, const struct model_body *body, con
     }
     if (load_drags_still_air(source))
         tree->drags[tree->drag_count++] =
-            (struct tree_drag){body->place.link, placement_point(&body->place, load->point), source->linear,
-                               source->quadratic};
+            (struct tree_drag){body->place.link, source->lifetime.number,
+                               placement_point(&body->place, load->point), source->linear, source->quadratic};
+}
+
+/* Of the term of a coordinate in the equations, those that are always there have one, others one each. */
+static void add_affine(struct builder *builder, int coordinate, const struct load *source)
+{
+    struct plan *plan = &builder->model->plan;
+    struct affine_term *term = source->lifetime.number > 0 ? &plan->affine[plan->affine_count++]
+                                                           : &builder->affine[coordinate];
+    term->coordinate = coordinate;
+    term->lifetime = source->lifetime.number;
+    term->kq += source->stiffness;
+    term->kv += source->coefficient;
+    term->c0 += source->stiffness * source->free_length;
 }
 
 static void add_spring(struct builder *builder, const struct model_body *body, const struct model_load *load)
@@ -306,15 +329,13 @@ static void add_spring(struct builder *builder, const struct model_body *body, c
     struct tree *tree = builder->model->tree;
     const struct load *source = load->source;
     if (!load->linked) {
-        struct affine_term *term = &builder->affine[body->first];
-        term->kq += source->stiffness;
-        term->kv += source->coefficient;
-        term->c0 += source->stiffness * source->free_length;
+        add_affine(builder, body->first, source);
         return;
     }
     struct tree_spring *spring = &tree->springs[tree->spring_count++];
     *spring = (struct tree_spring){.link = {body->place.link, 0},
                                    .point = {placement_point(&body->place, load->point), load->anchor},
+                                   .lifetime = source->lifetime.number,
                                    .stiffness = source->stiffness,
                                    .free_length = source->free_length,
                                    .damping = source->coefficient};
@@ -327,15 +348,6 @@ static void add_spring(struct builder *builder, const struct model_body *body, c
     spring->link[1] = partner->link;
     spring->point[1] = placement_point(partner, load->anchor);
     spring->along = vec_turn(partner->turn, spring->along);
-}
-
-static void add_joint_spring(struct builder *builder, const struct model_body *body,
-                             const struct load *source)
-{
-    struct affine_term *term = &builder->affine[body->first + body->count - 1];
-    term->kq += source->stiffness;
-    term->kv += source->coefficient;
-    term->c0 += source->stiffness * source->free_length;
 }
 
 static struct tree_bulk *bulk_of(struct builder *builder, int b)
@@ -368,11 +380,11 @@ void tree_add_load(struct builder *builder, int index)
     case load_actuator: add_spring(builder, body, load); break;
     case load_drag: add_drag(builder, body, load); break;
     case moment_applied:
-        add_moment(builder, body, load->partner < 0 ? NULL : &builder->model->bodies[load->partner],
+        add_moment(builder, body, load->partner < 0 ? NULL : &builder->model->bodies[load->partner], load,
                    &load->value);
         break;
     case moment_spring:
-    case moment_damper: add_joint_spring(builder, body, source); break;
+    case moment_damper: add_affine(builder, body->first + body->count - 1, source); break;
     case load_drive:
     case load_rope:
     case load_belt:

@@ -30,10 +30,6 @@ static const struct group beginning = {"a coupling", NULL, FIELDS(since_fields),
     FIELD_ENTRIES(COUPLING(between), "between", field_list, required, each_word, NULL,                       \
                   "its two ends: body.point, ground.point or, for the centre of mass, a body")
 
-#define COUPLING_GROUP(title, table, doc)                                                                    \
-    {                                                                                                        \
-        title, NULL, FIELDS(table), &named, 0, doc                                                           \
-    }
 #define CONSTRAINT_GROUP(title, table, doc)                                                                  \
     {                                                                                                        \
         title, NULL, FIELDS(table), &ending, 0, doc                                                          \
@@ -51,7 +47,7 @@ static const struct field spring_fields[] = {
                  "length without force; default 0"),
 };
 static const struct group spring_group =
-    COUPLING_GROUP("a spring", spring_fields, "a linear spring between two points");
+    BEGINNING_GROUP("a spring", spring_fields, "a linear spring between two points");
 
 static const struct field damper_fields[] = {
     BETWEEN_ROW,
@@ -59,7 +55,7 @@ static const struct field damper_fields[] = {
                  "force per velocity"),
 };
 static const struct group damper_group =
-    COUPLING_GROUP("a damper", damper_fields, "a linear damper between two points");
+    BEGINNING_GROUP("a damper", damper_fields, "a linear damper between two points");
 
 static const struct field actuator_fields[] = {
     FIELD_ENTRIES(
@@ -75,7 +71,7 @@ static const struct field actuator_fields[] = {
                  "the line of the points"),
 };
 static const struct group actuator_group =
-    COUPLING_GROUP("an actuator", actuator_fields,
+    BEGINNING_GROUP("an actuator", actuator_fields,
                    "a motor or cylinder: a given moment or force between two bodies");
 
 static const struct law actuator_law = {.effect = "actuator",

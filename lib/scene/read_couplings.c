@@ -47,7 +47,6 @@ static void add_resistance(struct scene *scene, const struct coupling_keys *keys
     own->kind = constraint_resistance;
     own->mu_s = own->mu_k = keys->resistance;
     own->surface_speed = (struct value){0};
-    own->ends = false;
 }
 
 static bool read_constraint(struct reader *reader, const struct chosen *chosen,
@@ -57,10 +56,7 @@ static bool read_constraint(struct reader *reader, const struct chosen *chosen,
     constraint->at = chosen->at;
     constraint->length = keys->length;
     constraint->length_given = keys->length > 0;
-    constraint->until = keys->until;
-    constraint->since = keys->since;
-    constraint->ends = keys->until != NULL;
-    constraint->begins = keys->since != NULL;
+    constraint->lifetime = lifetime_of(reader, keys->since, keys->until);
     if (!constraint_laws[constraint->kind].read(reader, keys, constraint)) return false;
     place_slips(reader, constraint);
     const struct node *when = keys->until ? keys->until : keys->since;
@@ -127,6 +123,7 @@ static bool read_coupling(struct reader *reader, const struct node *node, bool c
                                    .free_length = keys.free_length,
                                    .coefficient = keys.coefficient};
     coupling->load.law = chosen.kind->law;
+    coupling->load.lifetime = lifetime_of(reader, keys.since, keys.until);
     fine = (chosen.kind->law ? actuator_read(reader, &chosen, &names, &keys, coupling)
                              : read_between(reader, keys.between, coupling)) &&
            fine;
