@@ -93,7 +93,8 @@ static bool are_signs(const struct fbd_model *model, const double *memories, con
     for (size_t i = 0; i < coupling_count(model); i++, couplings += numbers_of_a_coupling)
         if (!is_sign(couplings[1], true) || !is_sign(couplings[5], true)) return false;
     for (int i = 0; i < model->scene->lifetime_count; i++)
-        if (couplings[i] != life_there && couplings[i] != life_over && couplings[i] != life_waits) return false;
+        if (couplings[i] != life_there && couplings[i] != life_over && couplings[i] != life_waits)
+            return false;
     return true;
 }
 

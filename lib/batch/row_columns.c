@@ -77,11 +77,11 @@ static bool add_extreme(struct list *list, int sign, const char *name)
 /* ---- events */
 
 static const fbd_event_kind kinds[] = {
-    FBD_EVENT_BREAKAWAY,  FBD_EVENT_STICK,         FBD_EVENT_REVERSAL,       FBD_EVENT_CONTACT_LOST,
-    FBD_EVENT_ROPE_SLACK, FBD_EVENT_ROPE_TAUT,     FBD_EVENT_LIFT_OFF,       FBD_EVENT_LANDING,
-    FBD_EVENT_SWITCH,     FBD_EVENT_IMPACT,        FBD_EVENT_CONTACT,        FBD_EVENT_REST,
-    FBD_EVENT_JAM,        FBD_EVENT_SEVERAL,       FBD_EVENT_SLIDING,        FBD_EVENT_SLIDING_ENDS,
-    FBD_EVENT_TRACK_END,  FBD_EVENT_COUPLING_ENDS, FBD_EVENT_COUPLING_BEGINS, FBD_EVENT_FORCE_ENDS,
+    FBD_EVENT_BREAKAWAY,   FBD_EVENT_STICK,         FBD_EVENT_REVERSAL,        FBD_EVENT_CONTACT_LOST,
+    FBD_EVENT_ROPE_SLACK,  FBD_EVENT_ROPE_TAUT,     FBD_EVENT_LIFT_OFF,        FBD_EVENT_LANDING,
+    FBD_EVENT_SWITCH,      FBD_EVENT_IMPACT,        FBD_EVENT_CONTACT,         FBD_EVENT_REST,
+    FBD_EVENT_JAM,         FBD_EVENT_SEVERAL,       FBD_EVENT_SLIDING,         FBD_EVENT_SLIDING_ENDS,
+    FBD_EVENT_TRACK_END,   FBD_EVENT_COUPLING_ENDS, FBD_EVENT_COUPLING_BEGINS, FBD_EVENT_FORCE_ENDS,
     FBD_EVENT_FORCE_BEGINS};
 
 static int find_body(const struct fbd_model *model, const char *name, size_t length)
@@ -93,7 +93,8 @@ static int find_body(const struct fbd_model *model, const char *name, size_t len
 }
 
 /* Is it the name of an event, as of a force also behind that of its body? */
-static bool is_named(const struct fbd_model *model, const struct watch *watch, const char *name, size_t length)
+static bool is_named(const struct fbd_model *model, const struct watch *watch, const char *name,
+                     size_t length)
 {
     const char *own = watch->source->name;
     const size_t size = strlen(own);

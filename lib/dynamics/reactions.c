@@ -188,7 +188,8 @@ static struct rated size_in_joint(const struct view *view, const struct model_lo
                  sign = f < 0 ? -1 : 1;
     struct rated size = {sign * f, 0};
     if (view->along)
-        size.rate = sign * (source->stiffness * view->along->dy[q] + source->coefficient * view->along->dy[v]);
+        size.rate =
+            sign * (source->stiffness * view->along->dy[q] + source->coefficient * view->along->dy[v]);
     return size;
 }
 

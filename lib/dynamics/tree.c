@@ -193,7 +193,7 @@ void tree_coupling_slots(const struct fbd_model *model, const struct instant *at
     const struct coupling *coupling = &model->tree->couplings[index];
     const struct row *rows = at->tree->rows;
     if (coupling->strands > 0) set_strands(model, at->tree, index, slots);
-    if (coupling_presses(coupling)) slots[coupling->normal_slot] = -rows[coupling->first_row].lambda;
+    if (coupling_has_normal(coupling)) slots[coupling->normal_slot] = -rows[coupling->first_row].lambda;
     if (coupling->kind == constraint_plane)
         slots[model->plan.modes[coupling->pair].hold_slot] =
             -hypot(rows[coupling->first_row].lambda, rows[coupling->first_row + 1].lambda);

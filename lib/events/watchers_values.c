@@ -408,7 +408,8 @@ static double user_rate(const struct watch *watch, struct fbd_state *state)
 static bool watch_is_over(const struct fbd_state *state, const struct watch *watch)
 {
     const int lifetime = watch->source->lifetime;
-    return lifetime > 0 && state->tree->life[lifetime - 1] != (watch->source->begins ? life_waits : life_there);
+    return lifetime > 0 &&
+           state->tree->life[lifetime - 1] != (watch->source->begins ? life_waits : life_there);
 }
 
 void watchers_arm(struct watchers *watchers, struct fbd_state *state, double step)

@@ -47,8 +47,9 @@ static void change_force(struct run *run, int watch, enum life life)
     }
     state->tree->life[of->source->lifetime - 1] = life;
     run->energy.lowered += life == life_there ? energy : -energy;
-    struct run_event *event = log_event(run, life == life_there ? FBD_EVENT_FORCE_BEGINS : FBD_EVENT_FORCE_ENDS,
-                                        model->loads[of->load].body, of->load, watch);
+    struct run_event *event =
+        log_event(run, life == life_there ? FBD_EVENT_FORCE_BEGINS : FBD_EVENT_FORCE_ENDS,
+                  model->loads[of->load].body, of->load, watch);
     if (event) event->force = energy;
     run->ended = true;
 }
@@ -69,8 +70,8 @@ static void end_coupling(struct run *run, int watch)
             if (modes[k] >= 0) state->slip[modes[k]] = slip_plus;
     }
     state->tree->life[ending->source->lifetime - 1] = life_over;
-    log_event(run, FBD_EVENT_COUPLING_ENDS, constraint_first_body(tree->couplings[ending->coupling].source), -1,
-              watch);
+    log_event(run, FBD_EVENT_COUPLING_ENDS, constraint_first_body(tree->couplings[ending->coupling].source),
+              -1, watch);
     run->ended = true;
 }
 
@@ -161,7 +162,8 @@ static void open_separating(struct run *run)
 static bool start_pieces(struct run *run, int watch)
 {
     const struct tree *tree = run->model->tree;
-    const int first = run->model->plan.watches[watch].coupling, constraint = tree->couplings[first].constraint;
+    const int first = run->model->plan.watches[watch].coupling,
+              constraint = tree->couplings[first].constraint;
     struct fbd_state *state = run->state;
     const struct instant at = state_instant(state);
     impulse_look(state);

@@ -23,7 +23,7 @@ struct coupling_keys {
     const struct node *since, *until;     /* conditions at which it begins and ends */
     const struct node *force;             /* actuator */
     const struct node *terms;             /* ratio: the mapping itself */
-    double stiffness, free_length, coefficient, length, radius, tension, along;
+    double stiffness, free_length, coefficient, length, radius, tension, along, efficiency;
     bool inside, crossed, closed;
     struct value mu_s, mu_k, restitution, reel, moment, surface_speed, resistance, normal;
     int law, side; /* enum impact_law, enum contact_side */
@@ -39,7 +39,8 @@ enum constraint_kind {
     constraint_rack,  /* a circle rolls on a line of a body without slip */
     constraint_ratio, /* a linear relation of coordinates */
     constraint_roll,  /* a circle on a line of the ground or of a body */
-    constraint_resistance, /* the rolling resistance of the roll before it: a moment between both bodies */
+    constraint_resistance, /* the rolling resistance of the roll before it: a moment between both bodies; or the
+                            * friction of the gear before it: between its first wheel and the body that carries it */
     constraint_slot,       /* a point on a line or curve of a body */
     constraint_groove,     /* the same with friction */
     constraint_belt,       /* a belt round two discs */

@@ -72,7 +72,7 @@ static const struct field actuator_fields[] = {
 };
 static const struct group actuator_group =
     BEGINNING_GROUP("an actuator", actuator_fields,
-                   "a motor or cylinder: a given moment or force between two bodies");
+                    "a motor or cylinder: a given moment or force between two bodies");
 
 static const struct law actuator_law = {.effect = "actuator",
                                         .written_as_c = true,
@@ -101,6 +101,8 @@ static const struct field gear_fields[] = {
     FIELD_ENTRIES(COUPLING(radii), "radii", field_list, 0, each_number, NULL,
                   "their pitch radii; default those of their shapes"),
     FIELD_FLAG(COUPLING(inside), "inside", "true: the first turns inside the second, a ring"),
+    FIELD_NUMBER(COUPLING(efficiency), "efficiency", a_number, positive,
+                 "power at the second over that of the first while the first drives, at most 1; default 1"),
 };
 static const struct group gear_group =
     BEGINNING_GROUP("a gear", gear_fields, "two pitch circles that roll on each other without slip");
@@ -310,7 +312,8 @@ const struct constraint_law constraint_laws[constraint_kinds] = {
         .load = always_load, .load_kind = load_normal, .load_name = ".friction"},
     [constraint_resistance] = {
         .drawing = "roll", .letters = {"M"},
-        .words = "rolling resistance: a moment against rolling, at most its arm times the normal force",
+        .words = "rolling resistance: a moment against rolling, at most its arm times the normal force; or friction of a "
+                 "gear: at most its arm times the force of the teeth",
         .not_as_c = "rolling is a constraint beside the joints",
         .rows = 1,
         .load = always_load, .load_kind = load_normal},

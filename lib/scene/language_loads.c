@@ -143,7 +143,7 @@ static const struct field spring_fields[] = {
 };
 static const struct group spring_group =
     PASSING_GROUP("a spring", "stiffness", spring_fields,
-               "a linear spring to a point of the ground, or along a slide");
+                  "a linear spring to a point of the ground, or along a slide");
 
 static const struct field damper_fields[] = {
     FIELD_NUMBER(LOAD(coefficient), "coefficient", a_damping, required | not_negative | stored,
@@ -153,7 +153,7 @@ static const struct field damper_fields[] = {
 };
 static const struct group damper_group =
     PASSING_GROUP("a damper", "coefficient", damper_fields,
-               "a linear damper to a point of the ground, or along a slide");
+                  "a linear damper to a point of the ground, or along a slide");
 
 static const struct field drag_fields[] = {
     FIELD_NUMBER(LOAD(linear), "linear", a_damping, not_negative | stored, "force per velocity"),
@@ -186,7 +186,8 @@ static const struct field power_fields[] = {
                 "above zero: in the direction of the motion"),
 };
 static const struct group power_group =
-    PASSING_GROUP("`power`", "value", power_fields, "a drive of given power: the force P/v, the moment P/omega");
+    PASSING_GROUP("`power`", "value", power_fields,
+                  "a drive of given power: the force P/v, the moment P/omega");
 
 /* f v = P, M omega = P: the formula divides by the rate, and the force is infinite where that is zero. The
  * rate has to be the velocity in the world, so that P is the power on the body. */
@@ -332,7 +333,7 @@ static const struct field moment_spring_fields[] = {
 };
 static const struct group moment_spring_group =
     PASSING_GROUP("a torsional spring", "stiffness", moment_spring_fields,
-               "a linear torsional spring to the ground");
+                  "a linear torsional spring to the ground");
 
 static const struct field moment_damper_fields[] = {
     FIELD_NUMBER(LOAD(coefficient), "coefficient", a_torsional_damping, required | not_negative | stored,
@@ -340,7 +341,7 @@ static const struct field moment_damper_fields[] = {
 };
 static const struct group moment_damper_group =
     PASSING_GROUP("a torsional damper", "coefficient", moment_damper_fields,
-               "a linear torsional damper to the ground");
+                  "a linear torsional damper to the ground");
 
 static const struct field moment_friction_fields[] = {
     FIELD_VALUE(LOAD(mu_s), "static", a_moment, not_negative | slips_not | stored,

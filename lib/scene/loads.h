@@ -108,7 +108,7 @@ struct node;
 struct lifetime {
     int number;                       /* from 1 on (struct scene: lifetime_count); 0: it is always there */
     const struct node *since, *until; /* its conditions, while the file is read; NULL without them */
-    bool begins, ends;                /* it has them: events of the scene have its number (struct user_event) */
+    bool begins, ends; /* it has them: events of the scene have its number (struct user_event) */
 };
 
 enum load_kind {

@@ -47,8 +47,9 @@ static bool read_condition(struct reader *reader, const struct condition *condit
 
 static struct names names_of_events(struct reader *reader)
 {
-    return (struct names){
-        .reader = reader, .place = place_event, .body = reader->scene->body_count == 1 ? 0 : ground_body};
+    return (struct names){.reader = reader,
+                          .place = place_event,
+                          .body = reader->scene->body_count == 1 ? 0 : ground_body};
 }
 
 static bool read_when(struct reader *reader, const struct node *when, char *relation,

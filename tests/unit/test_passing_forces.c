@@ -22,8 +22,10 @@ static void a_spring_breaks(void **unused)
     static const char *const scenes[] = {
         "forces: [spring: {name: band, stiffness: 200, until: force > 40 N}]}}\n",
         "forces: [spring: {name: band, stiffness: 200, until: x > 0.2 m}]}}\n",
-        "forces: [spring: {name: band, stiffness: 200, to: [-1, 0], free_length: 1, until: tension > 40 N}]}}\n",
-        "forces: [spring: {name: band, stiffness: 200, to: [-1, 0], free_length: 1, until: -40 N > -tension}]}}\n",
+        "forces: [spring: {name: band, stiffness: 200, to: [-1, 0], free_length: 1, until: tension > 40 "
+        "N}]}}\n",
+        "forces: [spring: {name: band, stiffness: 200, to: [-1, 0], free_length: 1, until: -40 N > "
+        "-tension}]}}\n",
         "}}\ncouplings: [spring: {name: band, between: [b, ground.A], stiffness: 200, free_length: 1, until: "
         "tension > 40 N}]\n",
         "}}\ncouplings: [spring: {name: band, between: [ground.A, b], stiffness: 200, free_length: 1, until: "
@@ -33,10 +35,11 @@ static void a_spring_breaks(void **unused)
     (void)unused;
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         char text[text_room];
-        snprintf(text, sizeof text,
-                 "fbd: 1\nground: {points: {A: [-1, 0]}}\nbodies: {b: {mass: 2, motion: slide, initial: {v: 3}, "
-                 "%ssimulate: {until: 1}\n",
-                 scenes[i]);
+        snprintf(
+            text, sizeof text,
+            "fbd: 1\nground: {points: {A: [-1, 0]}}\nbodies: {b: {mass: 2, motion: slide, initial: {v: 3}, "
+            "%ssimulate: {until: 1}\n",
+            scenes[i]);
         struct trial trial = run_of(text);
         const double t = trial_event(&trial, FBD_EVENT_FORCE_ENDS, "band", 0);
         check_close(&checks, "t", t, t_end, same);
@@ -59,10 +62,12 @@ static void a_torsional_spring_breaks(void **unused)
 {
     struct checks checks = {0};
     (void)unused;
-    struct trial trial = run_of("fbd: 1\nbodies: {b: {mass: 1, inertia: 2, motion: pivot, initial: {omega: 3}, "
-                                "moments: [spring: {stiffness: 8, until: moment > 4 N*m}]}}\n"
-                                "simulate: {until: 1}\n");
-    check_close(&checks, "t", trial_event(&trial, FBD_EVENT_FORCE_ENDS, NULL, 0), asin(0.5 * 2 / 3) / 2, same);
+    struct trial trial =
+        run_of("fbd: 1\nbodies: {b: {mass: 1, inertia: 2, motion: pivot, initial: {omega: 3}, "
+               "moments: [spring: {stiffness: 8, until: moment > 4 N*m}]}}\n"
+               "simulate: {until: 1}\n");
+    check_close(&checks, "t", trial_event(&trial, FBD_EVENT_FORCE_ENDS, NULL, 0), asin(0.5 * 2 / 3) / 2,
+                same);
     check_close(&checks, "omega", trial_get(&trial, "omega"), sqrt(8), same);
     check_close(&checks, "lost", fbd_result_energy(trial.result).work, -1, same);
     check_energy(&checks, &trial);
@@ -73,10 +78,11 @@ static void a_torsional_spring_breaks(void **unused)
 /* A brake of 3 N from x = 1 on, until v = 0.5; m = 1.5, v_0 = 2. */
 static void a_brake_begins_and_ends(void **unused)
 {
-    static const char *const brakes[] = {"applied: {name: brake, value: -3, from: x > 1 m, until: v < 0.5 m/s}",
-                                         "applied: {name: brake, fx: -3, fy: 0, from: x > 1, until: v < 0.5}",
-                                         "applied: {name: brake, value: 3, angle: 180 deg, from: x > 1, until: 0.5 "
-                                         "> v}"};
+    static const char *const brakes[] = {
+        "applied: {name: brake, value: -3, from: x > 1 m, until: v < 0.5 m/s}",
+        "applied: {name: brake, fx: -3, fy: 0, from: x > 1, until: v < 0.5}",
+        "applied: {name: brake, value: 3, angle: 180 deg, from: x > 1, until: 0.5 "
+        "> v}"};
     const double first = 0.5, last = first + 1.5 * 1.5 / 3;
     struct checks checks = {0};
     (void)unused;
@@ -106,11 +112,13 @@ static void a_force_breaks_a_block_away(void **unused)
     char text[text_room];
     struct checks checks = {0};
     (void)unused;
-    snprintf(text, sizeof text,
-             "fbd: 1\nbodies: {b: {mass: 2, motion: slide, forces: [gravity, normal, friction: 0.3, applied: {name: "
-             "push, value: %.17g, from: t > 0.5 s}, applied: {name: press, value: 100, angle: -90 deg, until: t > "
-             "0.5 s}]}}\nsimulate: {until: 1.5}\n",
-             limit + 2);
+    snprintf(
+        text, sizeof text,
+        "fbd: 1\nbodies: {b: {mass: 2, motion: slide, forces: [gravity, normal, friction: 0.3, applied: "
+        "{name: "
+        "push, value: %.17g, from: t > 0.5 s}, applied: {name: press, value: 100, angle: -90 deg, until: t > "
+        "0.5 s}]}}\nsimulate: {until: 1.5}\n",
+        limit + 2);
     struct trial trial = run_of(text);
     check_close(&checks, "v", trial_get(&trial, "v"), 1, same);
     check_close(&checks, "x", trial_get(&trial, "x"), 0.5, same);
@@ -125,10 +133,10 @@ static void a_reaction_ends_with_its_force(void **unused)
 {
     struct checks checks = {0};
     (void)unused;
-    struct trial trial =
-        run_of("fbd: 1\nbodies:\n  a: {mass: 1, motion: particle, forces: [applied: {value: 6, toward: b.G, from: t "
-               "> 0.25 s, until: t > 0.75 s}]}\n  b: {mass: 2, motion: particle, initial: {x: 9}}\n"
-               "simulate: {until: 1}\n");
+    struct trial trial = run_of(
+        "fbd: 1\nbodies:\n  a: {mass: 1, motion: particle, forces: [applied: {value: 6, toward: b.G, from: t "
+        "> 0.25 s, until: t > 0.75 s}]}\n  b: {mass: 2, motion: particle, initial: {x: 9}}\n"
+        "simulate: {until: 1}\n");
     check_close(&checks, "a.vx", get(&trial, "a.vx"), 3, same);
     check_close(&checks, "b.vx", get(&trial, "b.vx"), -1.5, same);
     check_energy(&checks, &trial);
@@ -141,8 +149,9 @@ static void statics_show_the_start(void **unused)
 {
     struct checks checks = {0};
     (void)unused;
-    struct trial trial = trial_parse("fbd: 1\nbodies: {b: {mass: 1, motion: slide, initial: {x: 0.5}, forces: [spring: "
-                                     "{stiffness: 8, until: t > 1 s}, applied: {name: late, value: 5, from: t > 1 s}]}}\n");
+    struct trial trial =
+        trial_parse("fbd: 1\nbodies: {b: {mass: 1, motion: slide, initial: {x: 0.5}, forces: [spring: "
+                    "{stiffness: 8, until: t > 1 s}, applied: {name: late, value: 5, from: t > 1 s}]}}\n");
     check_close(&checks, "a", trial_acceleration(&trial, "x"), -4, same);
     check_close(&checks, "late", trial_term(&trial, "x", "late"), 0, same);
     trial_close(&trial);
@@ -200,10 +209,14 @@ static struct scene draw_scene(struct random_numbers *numbers)
         force->other = (int)random_between(numbers, -1, scene.bodies);
         if (force->other == force->body || force->kind >= of_applied) force->other = -1;
         force->coupling = force->kind < of_applied && (force->other >= 0 || random_chance(numbers, 0.3));
-        for (int i = 0; i < 2; i++) force->end[i] = random_between(numbers, 3, 5), force->f[i] = random_between(numbers, -3, 3);
-        if (force->kind == of_spring) force->k = random_between(numbers, 0, 10), force->l0 = random_between(numbers, 0, 4);
+        for (int i = 0; i < 2; i++)
+            force->end[i] = random_between(numbers, 3, 5), force->f[i] = random_between(numbers, -3, 3);
+        if (force->kind == of_spring)
+            force->k = random_between(numbers, 0, 10), force->l0 = random_between(numbers, 0, 4);
         if (force->kind == of_damper) force->c = random_between(numbers, 0, 2);
-        if (force->kind == of_drag) force->c = random_between(numbers, 0, 0.5), force->quadratic = random_perhaps(numbers, 0.5, 0, 0.3);
+        if (force->kind == of_drag)
+            force->c = random_between(numbers, 0, 0.5),
+            force->quadratic = random_perhaps(numbers, 0.5, 0, 0.3);
         if (force->kind == of_applied) force->omega = random_perhaps(numbers, 0.5, 1, 5);
         if (random_chance(numbers, 0.5)) force->from = draw_condition(numbers, scene.bodies, false);
         force->until = draw_condition(numbers, scene.bodies, force->kind < of_applied);
@@ -215,7 +228,8 @@ static struct scene draw_scene(struct random_numbers *numbers)
 /* The force on its body; the tension of a spring or damper. */
 static double force_now(const struct force *force, double t, const double *y, double f[2])
 {
-    const double *own = y + (ptrdiff_t)4 * force->body, *other = force->other < 0 ? NULL : y + (ptrdiff_t)4 * force->other;
+    const double *own = y + (ptrdiff_t)4 * force->body,
+                 *other = force->other < 0 ? NULL : y + (ptrdiff_t)4 * force->other;
     double d[2], w[2];
     for (int i = 0; i < 2; i++) {
         d[i] = (other ? other[i] : force->end[i]) - own[i];
@@ -226,7 +240,8 @@ static double force_now(const struct force *force, double t, const double *y, do
     const double l = hypot(d[0], d[1]), speed = hypot(own[2], own[3]),
                  tension = force->k * (l - force->l0) + force->c * (d[0] * w[0] + d[1] * w[1]) / l;
     for (int i = 0; i < 2; i++)
-        f[i] = force->kind == of_drag ? -(force->c + force->quadratic * speed) * own[2 + i] : tension * d[i] / l;
+        f[i] =
+            force->kind == of_drag ? -(force->c + force->quadratic * speed) * own[2 + i] : tension * d[i] / l;
     return tension;
 }
 
@@ -360,19 +375,24 @@ static size_t write_force(const struct force *force, int k, char *text, size_t s
     static const char *const names[] = {"spring", "damper", "applied", "drag"};
     size_t used = (size_t)snprintf(text, size, "%s: {name: f%d", names[force->kind], k);
     if (force->coupling && force->other >= 0)
-        used += (size_t)snprintf(text + used, size - used, ", between: [b%d, b%d]", force->body, force->other);
+        used +=
+            (size_t)snprintf(text + used, size - used, ", between: [b%d, b%d]", force->body, force->other);
     else if (force->coupling)
         used += (size_t)snprintf(text + used, size - used, ", between: [b%d, ground.P%d]", force->body, k);
     else if (force->kind < of_applied)
-        used += (size_t)snprintf(text + used, size - used, ", to: [%.17g, %.17g]", force->end[0], force->end[1]);
+        used +=
+            (size_t)snprintf(text + used, size - used, ", to: [%.17g, %.17g]", force->end[0], force->end[1]);
     if (force->kind == of_spring)
-        used += (size_t)snprintf(text + used, size - used, ", stiffness: %.17g, free_length: %.17g", force->k, force->l0);
-    if (force->kind == of_damper) used += (size_t)snprintf(text + used, size - used, ", coefficient: %.17g", force->c);
+        used += (size_t)snprintf(text + used, size - used, ", stiffness: %.17g, free_length: %.17g", force->k,
+                                 force->l0);
+    if (force->kind == of_damper)
+        used += (size_t)snprintf(text + used, size - used, ", coefficient: %.17g", force->c);
     if (force->kind == of_drag)
-        used += (size_t)snprintf(text + used, size - used, ", linear: %.17g, quadratic: %.17g", force->c, force->quadratic);
+        used += (size_t)snprintf(text + used, size - used, ", linear: %.17g, quadratic: %.17g", force->c,
+                                 force->quadratic);
     for (int i = 0; force->kind == of_applied && i < 2; i++)
-        used += (size_t)snprintf(text + used, size - used, ", f%c: \"%.17g[N]*sin(%.17g[rad/s]*t + %.17g)\"", 'x' + i,
-                                 force->f[i], force->omega, force->omega > 0 ? 0 : asin(1));
+        used += (size_t)snprintf(text + used, size - used, ", f%c: \"%.17g[N]*sin(%.17g[rad/s]*t + %.17g)\"",
+                                 'x' + i, force->f[i], force->omega, force->omega > 0 ? 0 : asin(1));
     used += write_condition(&force->from, "from", text + used, size - used);
     used += write_condition(&force->until, "until", text + used, size - used);
     return used + (size_t)snprintf(text + used, size - used, "}");
@@ -387,10 +407,11 @@ static void write_scene(const struct scene *scene, double end, char *text, size_
     used += (size_t)snprintf(text + used, size - used, "Z: [0, 0]}}\nbodies:\n");
     for (int b = 0; b < scene->bodies; b++) {
         const double *q = &scene->start[4 * b];
-        used += (size_t)snprintf(text + used, size - used,
-                                 "  b%d: {mass: %.17g, motion: particle, initial: {x: %.17g, y: %.17g, vx: %.17g, "
-                                 "vy: %.17g}, forces: [",
-                                 b, scene->mass[b], q[0], q[1], q[2], q[3]);
+        used += (size_t)
+            snprintf(text + used, size - used,
+                     "  b%d: {mass: %.17g, motion: particle, initial: {x: %.17g, y: %.17g, vx: %.17g, "
+                     "vy: %.17g}, forces: [",
+                     b, scene->mass[b], q[0], q[1], q[2], q[3]);
         for (int k = 0; k < scene->forces; k++)
             if (scene->force[k].body == b && !scene->force[k].coupling) {
                 used += write_force(&scene->force[k], k, text + used, size - used);
@@ -442,7 +463,8 @@ static void check_scene(struct checks *checks, struct scene *scene, int seed)
         const double work = y[4 * scene->bodies + k];
         snprintf(name, sizeof name, "f%d", k);
         snprintf(body, sizeof body, "b%d", scene->force[k].body);
-        check_close(checks, "work", fbd_result_work(trial.result, body, name), work, accuracy * 10 * (1 + fabs(work)));
+        check_close(checks, "work", fbd_result_work(trial.result, body, name), work,
+                    accuracy * 10 * (1 + fabs(work)));
     }
     check_energy(checks, &trial);
     trial_close(&trial);
@@ -462,121 +484,6 @@ static void random_forces_pass(void **unused)
     checks_end(&checks);
 }
 
-/* ---- loads of all kinds on bodies of all kinds: a run in which one ends or begins, and two runs in turn */
-
-struct body {
-    const char *text;     /* with the mass, the numbers of its start, then the forces and moments beside its own */
-    const char *names[6]; /* of the numbers of its start */
-    bool turns, slides;
-};
-
-/* Numbers of the start are in the order of `names`, at most six. */
-static const struct body bodies[] = {
-    {"  b: {mass: 1.3, motion: {slide: {along: 20 deg}}, initial: {x: %.17g, v: %.17g}, forces: [gravity, normal: {two_sided: true}, "
-     "friction: 0.2%s]}\n",
-     {"b.x", "b.v"}, false, true},
-    {"  b: {shape: rod, length: 1, mass: 1.3, motion: {pivot: {point: [-0.3, 0]}}, initial: {theta: %.17g rad, omega: "
-     "%.17g}, forces: [gravity%s], moments: [damper: 0.1%s]}\n",
-     {"b.theta", "b.omega"}, true, false},
-    {"  b: {shape: rod, length: 1, mass: 1.3, motion: planar, initial: {x: %.17g, y: %.17g, theta: %.17g rad, vx: "
-     "%.17g, vy: %.17g, omega: %.17g}, forces: [gravity%s], moments: [damper: 0.1%s]}\n",
-     {"b.x", "b.y", "b.theta", "b.vx", "b.vy", "b.omega"}, true, false},
-    {"  cart: {mass: 2, motion: slide, initial: {x: %.17g, v: %.17g}, forces: [gravity, normal]}\n"
-     "  b: {shape: rod, length: 1, mass: 1.3, motion: {pivot: {on: cart, point: [-0.3, 0]}}, initial: {theta: %.17g rad, omega: "
-     "%.17g}, forces: [gravity%s], moments: [damper: 0.1%s]}\n",
-     {"cart.x", "cart.v", "b.theta", "b.omega"}, true, false},
-    {"  arm: {mass: 2, motion: pivot, inertia: 0.7, initial: {theta: %.17g rad, omega: %.17g}}\n"
-     "  b: {mass: 1.3, motion: {slide: {on: arm, along: 50 deg}}, initial: {x: %.17g, v: %.17g}, forces: [gravity%s]}\n",
-     {"arm.theta", "arm.omega", "b.x", "b.v"}, false, true},
-};
-
-enum { as_force, as_moment, as_coupling };
-
-static const struct {
-    int list;
-    bool turning, sliding; /* needs a body that turns, one on a slide */
-    const char *text;      /* without its last brace */
-} loads[] = {
-    {as_force, false, false, "applied: {name: l, value: 4, angle: 70 deg"},
-    {as_force, true, false, "applied: {name: l, value: 4, angle: 70 deg, frame: body, at: right"},
-    {as_force, true, false, "applied: {name: l, fx: -2, fy: 3, at: {point: left, offset: [0.2, -0.1]}"},
-    {as_force, false, false, "applied: {name: l, value: 3, toward: [1, 4]"},
-    {as_force, false, true, "applied: {name: l, value: 5"},
-    {as_force, false, true, "spring: {name: l, stiffness: 30, neutral: 0.3"},
-    {as_force, false, true, "damper: {name: l, coefficient: 3"},
-    {as_force, false, false, "spring: {name: l, stiffness: 12, to: [1, 2], free_length: 0.5"},
-    {as_force, false, false, "damper: {name: l, coefficient: 2, to: [1, 2]"},
-    {as_force, false, false, "drag: {name: l, linear: 0.5, quadratic: 0.4"},
-    {as_force, false, false, "drag: {name: l, linear: 0.5, wind: [2, -1]"},
-    {as_force, true, false, "drag: {name: l, linear: 0.2, quadratic: 0.4, wind: [2, -1], at: right"},
-    {as_moment, true, false, "applied: {name: l, value: 2.5"},
-    {as_moment, true, false, "spring: {name: l, stiffness: 6, neutral: 0.2"},
-    {as_moment, true, false, "damper: {name: l, coefficient: 0.6"},
-    {as_coupling, false, false, "spring: {name: l, between: [b, ground.A], stiffness: 9, free_length: 0.4"},
-    {as_coupling, false, false, "damper: {name: l, between: [ground.A, b], coefficient: 1.4"},
-    {as_coupling, true, false, "actuator: {name: l, between: [b, ground], moment: 1.7"},
-    {as_coupling, false, false, "actuator: {name: l, between: [b, ground.A], force: \"3[N/m]*distance\""},
-};
-
-/* The scene with the load, that has `keys`; NULL: without it. */
-static void write_body(const struct body *body, int load, const char *keys, const double *start, double until,
-                       char *text, size_t size)
-{
-    const double *y = start;
-    const int list = loads[load].list;
-    char entry[200] = "", lists[2][202] = {"", ""};
-    if (keys) snprintf(entry, sizeof entry, "%s%s}", loads[load].text, keys);
-    if (keys && list != as_coupling) snprintf(lists[list], sizeof lists[list], ", %s", entry);
-    size_t used = (size_t)snprintf(text, size, "fbd: 1\nground: {points: {A: [2, 1.5]}}\nbodies:\n");
-    int numbers = 0;
-    while (numbers < 6 && body->names[numbers]) numbers++;
-    if (numbers == 2)
-        used += (size_t)snprintf(text + used, size - used, body->text, y[0], y[1], lists[0], lists[1]);
-    else if (numbers == 4)
-        used += (size_t)snprintf(text + used, size - used, body->text, y[0], y[1], y[2], y[3], lists[0], lists[1]);
-    else
-        used += (size_t)snprintf(text + used, size - used, body->text, y[0], y[1], y[2], y[3], y[4], y[5], lists[0],
-                                 lists[1]);
-    if (keys && list == as_coupling) used += (size_t)snprintf(text + used, size - used, "couplings: [%s]\n", entry);
-    snprintf(text + used, size - used, "simulate: {until: %.17g, tolerance: 1e-12}\n", until);
-}
-
-static void run_body(const struct body *body, int load, const char *keys, const double *start, double until,
-                     double *end, struct checks *checks)
-{
-    char text[text_room];
-    write_body(body, load, keys, start, until, text, sizeof text);
-    struct trial trial = run_of(text);
-    for (int i = 0; i < 6 && body->names[i]; i++) end[i] = get(&trial, body->names[i]);
-    check_energy(checks, &trial);
-    trial_close(&trial);
-}
-
-static void loads_pass_on_bodies(void **unused)
-{
-    const double change = 0.4, end = 0.9;
-    struct random_numbers numbers = {(uint64_t)number_of("FBD_SEED", 1)};
-    struct checks checks = {0};
-    (void)unused;
-    for (size_t b = 0; b < sizeof bodies / sizeof *bodies; b++)
-        for (int load = 0; load < (int)(sizeof loads / sizeof *loads); load++)
-            for (int begins = 0; begins < 2; begins++) {
-                double start[6], middle[6], apart[6], whole[6];
-                char keys[60];
-                if ((loads[load].turning && !bodies[b].turns) || (loads[load].sliding && !bodies[b].slides)) continue;
-                for (int i = 0; i < 6; i++) start[i] = random_between(&numbers, -1, 1);
-                snprintf(keys, sizeof keys, ", %s: t > %.17g s", begins ? "from" : "until", change);
-                const size_t failed = checks.failed;
-                run_body(&bodies[b], load, begins ? NULL : "", start, change, middle, &checks);
-                run_body(&bodies[b], load, begins ? "" : NULL, middle, end - change, apart, &checks);
-                run_body(&bodies[b], load, keys, start, end, whole, &checks);
-                for (int i = 0; i < 6 && bodies[b].names[i]; i++)
-                    check_close(&checks, bodies[b].names[i], whole[i], apart[i], same * (1 + fabs(apart[i])));
-                if (checks.failed > failed) printf("body %zu, %s%s}\n", b, loads[load].text, keys);
-            }
-    checks_end(&checks);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -587,7 +494,6 @@ int main(void)
         cmocka_unit_test(a_reaction_ends_with_its_force),
         cmocka_unit_test(statics_show_the_start),
         cmocka_unit_test(random_forces_pass),
-        cmocka_unit_test(loads_pass_on_bodies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
