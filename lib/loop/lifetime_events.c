@@ -244,7 +244,7 @@ bool run_change_lifetimes(struct run *run)
 {
     const struct plan *plan = &run->model->plan;
     const struct instant at = state_instant(run->state);
-    /* First what ends: the reactions of what begins here are not known yet. */
+    /* First the ends: the reactions of forces and couplings that begin here are not known yet. */
     for (int begins = 0; begins < 2; begins++)
         for (size_t i = 0; i < plan->watch_count; i++)
             if (plan->watches[i].source->begins == (begins > 0) && is_due(run, &plan->watches[i], &at))

@@ -72,7 +72,7 @@ struct lifetime lifetime_of(struct reader *reader, const struct node *since, con
                              .ends = until != NULL};
 }
 
-/* The condition in the key `from` or `until` of what is called `name`. */
+/* The condition in the key `from` or `until` of the force or constraint called `name`. */
 static bool read_ending(struct reader *reader, const struct lifetime *lifetime, bool begins, const char *name,
                         const struct names *names)
 {
