@@ -335,6 +335,8 @@ typedef enum fbd_event_kind {
     FBD_EVENT_COUPLING_ENDS, /* the condition of its `until` becomes true */
     /* the condition of its `from` becomes true: a plastic impact, if its ends move relative to each other */
     FBD_EVENT_COUPLING_BEGINS,
+    FBD_EVENT_FORCE_ENDS, /* the same of a force or moment */
+    FBD_EVENT_FORCE_BEGINS,
 } fbd_event_kind;
 
 typedef struct fbd_event {
@@ -348,7 +350,7 @@ typedef struct fbd_event {
 
 /* "breakaway", "stick", "reversal", "contact_lost", "user", "rope_slack", "rope_taut", "lift_off", "landing",
  * "switch", "impact", "contact", "rest", "sliding", "sliding_ends", "jam", "several", "track_end",
- * "coupling_ends", "coupling_begins"; "" for other values */
+ * "coupling_ends", "coupling_begins", "force_ends", "force_begins"; "" for other values */
 FBD_API const char *fbd_event_kind_name(fbd_event_kind kind);
 
 typedef enum fbd_outcome {

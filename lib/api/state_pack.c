@@ -9,8 +9,8 @@
 #include "dynamics/state.h"
 #include "fbd_view.h"
 
-/* Of a coupling: zero, sides, directions and turns of a rope's ends; 0, 1 if it has ended, 2 if it has not begun. */
-enum { numbers_of_a_coupling = 10 };
+/* Of a coupling: zero, sides, directions and turns of a rope's ends. */
+enum { numbers_of_a_coupling = 9 };
 
 static size_t coupling_count(const struct fbd_model *model)
 {
@@ -38,7 +38,7 @@ static size_t memory_count(const struct plan *plan)
 static size_t size_of(const struct fbd_model *model)
 {
     return 1 + plan_size(&model->plan) + memory_count(&model->plan) +
-           numbers_of_a_coupling * coupling_count(model);
+           numbers_of_a_coupling * coupling_count(model) + (size_t)model->scene->lifetime_count;
 }
 
 struct packing {
@@ -61,7 +61,6 @@ static void put_coupling(struct packing *packing, const struct coupling_state *c
         put(packing, coupling->turned[end]);
         put(packing, coupling->laid[end]);
     }
-    put(packing, coupling->gone + coupling->waits);
 }
 
 /* NOLINTNEXTLINE(readability-non-const-parameter): `put` writes them */
@@ -76,6 +75,7 @@ size_t fbd_state_pack(const fbd_state *state, double *numbers, size_t room)
     for (size_t i = 0; (branch = find_memory(plan, i)) >= 0; i++) put(&packing, state->branch[branch]);
     for (size_t i = 0; i < coupling_count(state->model); i++)
         put_coupling(&packing, &state->tree->couplings[i]);
+    for (int i = 0; i < state->model->scene->lifetime_count; i++) put(&packing, state->tree->life[i]);
     return packing.count;
 }
 
@@ -91,8 +91,9 @@ static bool are_signs(const struct fbd_model *model, const double *memories, con
     for (size_t i = 0; i < count; i++)
         if (!is_sign(memories[i], false)) return false;
     for (size_t i = 0; i < coupling_count(model); i++, couplings += numbers_of_a_coupling)
-        if (!is_sign(couplings[1], true) || !is_sign(couplings[5], true) ||
-            (couplings[9] != 0 && couplings[9] != 1 && couplings[9] != 2))
+        if (!is_sign(couplings[1], true) || !is_sign(couplings[5], true)) return false;
+    for (int i = 0; i < model->scene->lifetime_count; i++)
+        if (couplings[i] != life_there && couplings[i] != life_over && couplings[i] != life_waits)
             return false;
     return true;
 }
@@ -106,8 +107,6 @@ static void take_coupling(const double *numbers, struct coupling_state *coupling
         coupling->turned[end] = numbers[3 + 4 * end];
         coupling->laid[end] = numbers[4 + 4 * end];
     }
-    coupling->gone = numbers[9] != 0;
-    coupling->waits = numbers[9] == 2;
 }
 
 bool fbd_state_unpack(fbd_state *state, const double *numbers, size_t count)
@@ -126,6 +125,8 @@ bool fbd_state_unpack(fbd_state *state, const double *numbers, size_t count)
     for (size_t i = 0; (branch = find_memory(plan, i)) >= 0; i++) state->branch[branch] = (int)memories[i];
     for (size_t i = 0; i < coupling_count(state->model); i++)
         take_coupling(couplings + numbers_of_a_coupling * i, &state->tree->couplings[i]);
+    const double *lives = couplings + numbers_of_a_coupling * coupling_count(state->model);
+    for (int i = 0; i < state->model->scene->lifetime_count; i++) state->tree->life[i] = (int)lives[i];
     state->settled = false;
     return true;
 }

@@ -77,11 +77,12 @@ static bool add_extreme(struct list *list, int sign, const char *name)
 /* ---- events */
 
 static const fbd_event_kind kinds[] = {
-    FBD_EVENT_BREAKAWAY,  FBD_EVENT_STICK,         FBD_EVENT_REVERSAL,       FBD_EVENT_CONTACT_LOST,
-    FBD_EVENT_ROPE_SLACK, FBD_EVENT_ROPE_TAUT,     FBD_EVENT_LIFT_OFF,       FBD_EVENT_LANDING,
-    FBD_EVENT_SWITCH,     FBD_EVENT_IMPACT,        FBD_EVENT_CONTACT,        FBD_EVENT_REST,
-    FBD_EVENT_JAM,        FBD_EVENT_SEVERAL,       FBD_EVENT_SLIDING,        FBD_EVENT_SLIDING_ENDS,
-    FBD_EVENT_TRACK_END,  FBD_EVENT_COUPLING_ENDS, FBD_EVENT_COUPLING_BEGINS};
+    FBD_EVENT_BREAKAWAY,   FBD_EVENT_STICK,         FBD_EVENT_REVERSAL,        FBD_EVENT_CONTACT_LOST,
+    FBD_EVENT_ROPE_SLACK,  FBD_EVENT_ROPE_TAUT,     FBD_EVENT_LIFT_OFF,        FBD_EVENT_LANDING,
+    FBD_EVENT_SWITCH,      FBD_EVENT_IMPACT,        FBD_EVENT_CONTACT,         FBD_EVENT_REST,
+    FBD_EVENT_JAM,         FBD_EVENT_SEVERAL,       FBD_EVENT_SLIDING,         FBD_EVENT_SLIDING_ENDS,
+    FBD_EVENT_TRACK_END,   FBD_EVENT_COUPLING_ENDS, FBD_EVENT_COUPLING_BEGINS, FBD_EVENT_FORCE_ENDS,
+    FBD_EVENT_FORCE_BEGINS};
 
 static int find_body(const struct fbd_model *model, const char *name, size_t length)
 {
@@ -91,23 +92,38 @@ static int find_body(const struct fbd_model *model, const char *name, size_t len
     return -1;
 }
 
-/* The event of the file, or the `until` of a coupling if `ends`, with the name of `length` bytes; or -1. */
+/* Is it the name of an event, as of a force also behind that of its body? */
+static bool is_named(const struct fbd_model *model, const struct watch *watch, const char *name,
+                     size_t length)
+{
+    const char *own = watch->source->name;
+    const size_t size = strlen(own);
+    if (length == size && strncmp(own, name, size) == 0) return true;
+    if (watch->load < 0 || length <= size + 1 || strncmp(name + length - size, own, size) != 0) return false;
+    const char *body = model->bodies[model->loads[watch->load].body].name;
+    return strlen(body) == length - size - 1 && strncmp(name, body, strlen(body)) == 0 &&
+           name[strlen(body)] == '.';
+}
+
+/* The event of the file, or the `until` of a force or coupling if `ends`, with the name of `length` bytes; or -1. */
 static int find_watch(const struct fbd_model *model, const char *name, size_t length, bool ends)
 {
     int found = -1;
     for (size_t i = 0; i < model->plan.watch_count; i++) {
         const struct user_event *event = model->plan.watches[i].source;
-        const bool same = strlen(event->name) == length && strncmp(event->name, name, length) == 0;
-        if (same && (event->ends > 0 || !ends)) found = (int)i;
+        const bool same = is_named(model, &model->plan.watches[i], name, length);
+        if (same && ((event->lifetime > 0 && !event->begins) || !ends)) found = (int)i;
     }
     return found;
 }
 
-/* `breaks`, `cord.breaks` of a coupling, `bob.breaks` of a body: a coupling ends by its `until`. */
+/* `breaks`, `cord.breaks` of a coupling, `band.breaks` or `bob.band.breaks` of a force, `bob.breaks` of a body: one ends
+ * by its `until`. */
 static bool find_break(const struct fbd_model *model, const char *name, const char *dot,
                        struct column *column)
 {
     column->event = (int)FBD_EVENT_COUPLING_ENDS;
+    column->breaks = true;
     if (!dot) return true;
     column->watch = find_watch(model, name, (size_t)(dot - name), true);
     column->body = find_body(model, name, (size_t)(dot - name));
@@ -120,7 +136,7 @@ static bool find_event(const struct fbd_model *model, const char *name, struct c
     column->event = column->body = -1;
     column->watch = find_watch(model, name, strlen(name), false);
     if (column->watch >= 0) return true;
-    const char *dot = strchr(name, '.');
+    const char *dot = strrchr(name, '.');
     if (strcmp(dot ? dot + 1 : name, "breaks") == 0) return find_break(model, name, dot, column);
     if (dot && (column->body = find_body(model, name, (size_t)(dot - name))) < 0) return false;
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
@@ -287,7 +303,8 @@ bool columns_read(struct columns *columns, struct arena *arena, const struct fbd
 static bool is_meant(const struct column *column, const struct run_event *event)
 {
     if (column->watch >= 0) return event->watch == column->watch;
-    return (int)event->kind == column->event && (column->body < 0 || event->body == column->body);
+    const bool breaks = column->breaks && event->kind == FBD_EVENT_FORCE_ENDS;
+    return ((int)event->kind == column->event || breaks) && (column->body < 0 || event->body == column->body);
 }
 
 static void put_number(struct text *text, double value)

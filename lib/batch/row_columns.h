@@ -43,6 +43,7 @@ struct column {
     int index;
     /* time, count: which events; -1 for any. event: of fbd_event_kind, or of enum row_word */
     int event, body, watch;
+    bool breaks; /* couplings and forces that end */
 };
 
 struct columns {

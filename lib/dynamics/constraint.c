@@ -136,7 +136,7 @@ static void clear(const struct coupling *coupling, struct row *rows)
 static void evaluate(const struct view *view, int i)
 {
     const struct coupling *coupling = &view->tree->couplings[i];
-    if (view->work->couplings[i].gone) {
+    if (coupling_is_gone(view->work, coupling)) {
         clear(coupling, &view->work->rows[coupling->first_row]);
         return;
     }
@@ -157,7 +157,7 @@ void constraints_select(const struct tree *tree, const struct instant *at)
     work->acting_count = 0;
     for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
-        const bool open = work->couplings[i].gone ||
+        const bool open = coupling_is_gone(work, coupling) ||
                           (coupling->kind == constraint_contact && at->slip[coupling->surface] != stick);
         if (!open) work->acting[work->acting_count++] = i;
     }
@@ -202,13 +202,11 @@ void constraints_start(const struct fbd_model *model, const struct instant *at)
     struct tree_work *work = at->tree;
     struct view view = {model, tree, work, false, at, NULL};
     for (int i = 0; i < tree->coupling_count; i++) {
-        const bool waits = tree->couplings[i].source->begins;
-        work->couplings[i] = (struct coupling_state){
-            .side = {1, 1}, .e = {1, 0}, .feature = no_feature, .gone = waits, .waits = waits};
-        if (!waits) start(&view, i);
+        work->couplings[i] = (struct coupling_state){.side = {1, 1}, .e = {1, 0}, .feature = no_feature};
+        if (!coupling_is_gone(work, &tree->couplings[i])) start(&view, i);
     }
     for (int i = 0; i < tree->coupling_count; i++)
-        if (!work->couplings[i].gone) rope_start_wrap(tree, work, i);
+        if (!coupling_is_gone(work, &tree->couplings[i])) rope_start_wrap(tree, work, i);
 }
 
 void coupling_begin(const struct fbd_model *model, const struct instant *at, int index)
@@ -225,7 +223,8 @@ void constraints_follow(const struct fbd_model *model, struct tree_work *work)
     for (int i = 0; i < model->tree->coupling_count; i++) {
         const struct coupling *coupling = &model->tree->couplings[i];
         const struct constraint_form *form = &constraint_forms[coupling->kind];
-        if (form->follow && !work->couplings[i].gone) form->follow(&view, coupling, &work->couplings[i]);
+        if (form->follow && !coupling_is_gone(work, coupling))
+            form->follow(&view, coupling, &work->couplings[i]);
     }
 }
 

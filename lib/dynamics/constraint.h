@@ -72,11 +72,15 @@ struct coupling_state {
     double foot;      /* slot: the arc length of its point, by constraints_follow */
     struct vec e, n;  /* plane friction: direction of its first row; of its force while it slips */
     int feature;      /* contact: its feature; no_feature while it is open */
-    bool gone;        /* it has ended, or not begun: its rows are empty */
-    bool waits;       /* it has not begun */
 };
 
 enum { no_feature = -1 };
+
+/* Has it ended, or not begun? Then its rows are empty. */
+static inline bool coupling_is_gone(const struct tree_work *work, const struct coupling *coupling)
+{
+    return !is_there(work, coupling->source->lifetime.number);
+}
 
 /* Set the references of the couplings from the positions of the links. */
 void constraints_start(const struct fbd_model *model, const struct instant *at);

@@ -24,6 +24,7 @@ void couplings_keep(struct fbd_state *state, const struct fbd_state *from)
 {
     const struct tree *tree = state->model->tree, *whole = from->model->tree;
     int next = 0;
+    state_copy_lives(state, from);
     for (int i = 0; i < tree->coupling_count; i++) {
         struct pos at = place_of(state->model, i);
         while (next < whole->coupling_count && !is_of(from->model, next, at)) next++;

@@ -51,7 +51,7 @@ bool tree_takes_part(const struct tree *tree, const struct instant *at, int k)
         return !at->tree->projecting && at->slip[tree->links[link].pair] != stick;
     }
     const struct coupling *coupling = &tree->couplings[tree->coupling_of_row[k]];
-    if (at->tree->couplings[tree->coupling_of_row[k]].gone) return false;
+    if (coupling_is_gone(at->tree, coupling)) return false;
     if (coupling->kind == constraint_contact) return contact_takes_part(coupling, at, k);
     bool has_mode = coupling->kind == constraint_rope || coupling->kind == constraint_plane ||
                     (coupling->pair >= 0 && k == coupling->along_row);
@@ -110,7 +110,7 @@ static bool is_rubbing(const struct tree *tree, int index, const struct instant 
 {
     const struct coupling *coupling = &tree->couplings[index];
     return coupling_rubs(coupling) && coupling->kind != constraint_plane &&
-           !at->tree->couplings[index].gone && slip_side(at->slip[coupling->pair]) != 0 &&
+           !coupling_is_gone(at->tree, coupling) && slip_side(at->slip[coupling->pair]) != 0 &&
            (coupling->surface < 0 || at->slip[coupling->surface] == stick);
 }
 

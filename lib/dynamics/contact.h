@@ -25,7 +25,7 @@ struct gap {
 /* Has the contact of this pair ended? */
 static inline bool meeting_is_gone(const struct tree_work *work, const struct meeting *meeting)
 {
-    return work->couplings[meeting->first_coupling].gone;
+    return !is_there(work, meeting->lifetime);
 }
 
 /* The gap of one feature of contact pair `index`, which is also the argument of the functions below. */

@@ -140,6 +140,7 @@ static void pose_arrow(const struct fbd_model *model, int index, const struct po
     const struct tree_state *link = body_link(body, at);
     struct motion_of_point point = point_motion(body, pose, load->point);
     *arrow = (struct arrow){.name = source->name, .load = index, .point = load_place(load, point.p, at)};
+    if (!is_there(at->tree, source->lifetime.number)) return;
     switch (source->kind) {
     case load_gravity: arrow->force = vec_scale(body_mass(body, at), model->scene->gravity); break;
     case load_drive:

@@ -152,6 +152,7 @@ double potential_energy(const struct fbd_model *model, const struct model_load *
 {
     const struct model_body *body = &model->bodies[load->body];
     const struct load *source = load->source;
+    if (!is_there(at->tree, source->lifetime.number)) return 0;
     struct pose pose = body_pose(body, at);
     switch (load->potential_kind) {
     case potential_none:

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "dynamics/tree.h"
+
 /* d(dV/dq_i) = sum_j V_ij dq_j over all that V depends on, by hyper-dual numbers. */
 static double slope_variation(const struct potential_term *term, const struct instant *at,
                               const struct direction *along)
@@ -31,6 +33,7 @@ static void add_joint_forces(const struct plan *plan, const struct instant *at,
     const struct range affine = loads->of[list_affine], potentials = loads->of[list_potentials];
     for (int i = affine.first; i < range_end(affine); i++) {
         const struct affine_term *term = &plan->affine[i];
+        if (!is_there(at->tree, term->lifetime)) continue;
         slots[term->coordinate] += term->c0 - term->kq * q[term->coordinate] - term->kv * v[term->coordinate];
     }
     for (int i = potentials.first; i < range_end(potentials); i++) {
@@ -63,6 +66,7 @@ void force_slots_along(const struct fbd_model *model, const struct instant *at, 
     memset(variation, 0, (size_t)plan->slots * sizeof *variation);
     for (size_t i = 0; i < plan->affine_count; i++) {
         const struct affine_term *term = &plan->affine[i];
+        if (!is_there(at->tree, term->lifetime)) continue;
         variation[term->coordinate] -= term->kq * dq[term->coordinate] + term->kv * dv[term->coordinate];
     }
     for (size_t i = 0; i < plan->potential_count; i++)

@@ -10,14 +10,14 @@
 bool mode_has_ended(const struct fbd_state *state, int pair)
 {
     const int coupling = state->model->plan.modes[pair].coupling;
-    return coupling >= 0 && state->tree->couplings[coupling].gone;
+    return coupling >= 0 && coupling_is_gone(state->tree, &state->model->tree->couplings[coupling]);
 }
 
 bool mode_is_off_surface(const struct fbd_state *state, int pair)
 {
     const int coupling = state->model->plan.modes[pair].coupling;
     if (coupling < 0) return false;
-    if (state->tree->couplings[coupling].gone) return true;
+    if (mode_has_ended(state, pair)) return true;
     int surface = state->model->tree->couplings[coupling].surface;
     return surface >= 0 && state->slip[surface] != stick;
 }

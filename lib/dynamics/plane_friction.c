@@ -68,7 +68,7 @@ static bool plane_slips(const struct tree *tree, const struct instant *at, int i
 {
     const struct coupling *coupling = &tree->couplings[index];
     return coupling->kind == constraint_plane && slip_side(at->slip[coupling->pair]) != 0 &&
-           !at->tree->couplings[index].gone;
+           !coupling_is_gone(at->tree, coupling);
 }
 
 struct plane_speed plane_speed(const struct fbd_model *model, const struct tree_work *work, int index)
@@ -87,7 +87,7 @@ bool planes_stick(const struct tree *tree, const struct instant *at)
 {
     for (int i = 0; i < tree->coupling_count; i++)
         if (tree->couplings[i].kind == constraint_plane && at->slip[tree->couplings[i].pair] == stick &&
-            !at->tree->couplings[i].gone)
+            !coupling_is_gone(at->tree, &tree->couplings[i]))
             return true;
     return false;
 }

@@ -59,7 +59,7 @@ static struct rated_force row_force(const struct view *view, const struct coupli
 static bool acts(const struct view *view, int coupling)
 {
     const struct coupling *of = &view->model->tree->couplings[coupling];
-    if (view->at->tree->couplings[coupling].gone) return false;
+    if (coupling_is_gone(view->at->tree, of)) return false;
     return of->kind != constraint_contact || view->at->slip[of->surface] == stick;
 }
 
@@ -176,6 +176,23 @@ static struct rated_force force_of_spring(const struct view *view, const struct 
     return force;
 }
 
+/* The size of k (q - q_0) + c q' along or about the coordinate q of the body. */
+static struct rated size_in_joint(const struct view *view, const struct model_load *load)
+{
+    const struct load *source = load->source;
+    const struct model_body *body = &view->model->bodies[load->body];
+    const bool about = source->kind == moment_spring || source->kind == moment_damper;
+    const int k = about ? body->count - 1 : 0, q = body->first + k, v = body->first_rate + k;
+    const double *y = view->at->y;
+    const double f = source->stiffness * (y[q] - source->free_length) + source->coefficient * y[v],
+                 sign = f < 0 ? -1 : 1;
+    struct rated size = {sign * f, 0};
+    if (view->along)
+        size.rate =
+            sign * (source->stiffness * view->along->dy[q] + source->coefficient * view->along->dy[v]);
+    return size;
+}
+
 /* ---- joints */
 
 static struct rated_force force_of_pin(const struct view *view, int body)
@@ -224,8 +241,11 @@ static struct rated value_of(const struct view *view, const struct model_absolut
         if (!component) return size_of_couplings(view, reaction);
         force = force_of_couplings(view, reaction);
     } else if (reaction->load >= 0) {
+        const struct model_load *load = &view->model->loads[reaction->load];
         struct rated tension;
-        force = force_of_spring(view, &view->model->loads[reaction->load], &tension);
+        if (!is_there(view->at->tree, load->source->lifetime.number)) return (struct rated){0, 0};
+        if (!load->linked) return size_in_joint(view, load);
+        force = force_of_spring(view, load, &tension);
         if (!component) return tension;
     } else {
         if (!component) return size_of_guide(view, reaction);

@@ -110,6 +110,9 @@ void state_take_back(struct fbd_state *state, struct arena *arena);
 /* Free a state; of one in an arena, its memory outside of it. */
 void state_free(struct fbd_state *state);
 
+/* Set in `to` which loads and constraints are there as in `from`; both are of the same scene, or of islands of it. */
+void state_copy_lives(struct fbd_state *to, const struct fbd_state *from);
+
 /* Make `to` equal to `from`; both belong to the same model. */
 void state_copy(struct fbd_state *to, const struct fbd_state *from);
 

@@ -89,6 +89,12 @@ void state_free(struct fbd_state *state)
     if (!state->in_arena) free(state);
 }
 
+void state_copy_lives(struct fbd_state *to, const struct fbd_state *from)
+{
+    memcpy(to->tree->life, from->tree->life,
+           (size_t)from->model->scene->lifetime_count * sizeof *from->tree->life);
+}
+
 void state_copy(struct fbd_state *to, const struct fbd_state *from)
 {
     const struct plan *plan = &from->model->plan;
@@ -99,6 +105,7 @@ void state_copy(struct fbd_state *to, const struct fbd_state *from)
     memcpy(to->y, from->y, (size_t)(from->scratch - from->y) * sizeof *to->y); /* with a and slots */
     if (modes > 0) memcpy(to->branch, from->branch, modes * sizeof *to->branch);
     if (to->sliding) sliding_copy(from->model, to->sliding, from->sliding);
+    if (from->model->scene->lifetime_count > 0) state_copy_lives(to, from);
     if (from->model->tree->coupling_count > 0)
         memcpy(to->tree->couplings, from->tree->couplings, coupling_bytes(from->model));
 }

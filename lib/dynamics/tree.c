@@ -60,7 +60,8 @@ size_t tree_work_size(const struct fbd_model *model)
     const struct tree *tree = model->tree;
     size_t links = (size_t)tree->count, unknowns = (size_t)tree_unknowns(tree);
     size_t chains = links + most_constraint_ends * unknowns;
-    size_t ints = (links + 5 * unknowns + (size_t)tree->coupling_count + chains + 3) / 2 * 2;
+    size_t lives = (size_t)model->scene->lifetime_count;
+    size_t ints = (links + 5 * unknowns + (size_t)tree->coupling_count + chains + lives + 3) / 2 * 2;
     size_t link = sizeof(struct tree_state) + sizeof(struct tree_rhs) + sizeof(struct tree_variation);
     return links * link + sum_count(tree) * sizeof(struct tree_rhs) +
            bare_count(tree) * sizeof(struct tree_bare) + loop_count(model) * sizeof(struct tree_loop) +
@@ -68,6 +69,19 @@ size_t tree_work_size(const struct fbd_model *model)
            (size_t)tree->coupling_count * sizeof(struct coupling_state) +
            pushes_of(tree) * sizeof(struct tree_push) + doubles_of(model) * sizeof(double) +
            unknowns * sizeof(size_t) + ints * sizeof(int);
+}
+
+static void start_lives(const struct fbd_model *model, int *life)
+{
+    const struct scene *scene = model->scene;
+    for (size_t i = 0; i < model->load_count; i++) {
+        const struct lifetime *lifetime = &model->loads[i].source->lifetime;
+        if (lifetime->begins) life[lifetime->number - 1] = life_waits;
+    }
+    for (size_t i = 0; i < scene->constraint_count; i++) {
+        const struct lifetime *lifetime = &scene->constraints[i].lifetime;
+        if (lifetime->begins) life[lifetime->number - 1] = life_waits;
+    }
 }
 
 void tree_work_init(struct tree_work *work, const struct fbd_model *model, void *memory)
@@ -114,6 +128,8 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     work->acting = work->push_end + tree->row_count + 1;
     work->newest = work->acting + tree->coupling_count;
     work->older = work->newest + links;
+    work->life = work->older + most_constraint_ends * unknowns;
+    start_lives(model, work->life);
     if (loop_count(model) > 0 && tree_loop_find(model, loop)) work->loop = loop;
     if (loops_size(model) > 0 && !work->loop) {
         work->loops = loops;
@@ -177,7 +193,7 @@ void tree_coupling_slots(const struct fbd_model *model, const struct instant *at
     const struct coupling *coupling = &model->tree->couplings[index];
     const struct row *rows = at->tree->rows;
     if (coupling->strands > 0) set_strands(model, at->tree, index, slots);
-    if (coupling_presses(coupling)) slots[coupling->normal_slot] = -rows[coupling->first_row].lambda;
+    if (coupling_has_normal(coupling)) slots[coupling->normal_slot] = -rows[coupling->first_row].lambda;
     if (coupling->kind == constraint_plane)
         slots[model->plan.modes[coupling->pair].hold_slot] =
             -hypot(rows[coupling->first_row].lambda, rows[coupling->first_row + 1].lambda);

@@ -135,7 +135,16 @@ struct tree_work {
     double fastest;         /* the speed of the fastest link; negative: not yet computed, see constraint.c; */
     double spin;            /* then with the largest angular speed */
     double *borne;          /* count, if there are contacts: largest acceleration by one force */
+    int *life;              /* of each lifetime of the scene (scene/loads.h): enum life */
 };
+
+/* A load or constraint acts from its begin to its end. */
+enum life { life_there, life_over, life_waits };
+
+static inline bool is_there(const struct tree_work *work, int lifetime)
+{
+    return lifetime == 0 || work->life[lifetime - 1] == life_there;
+}
 
 /* Size of a workspace in bytes (a multiple of the size of a double), and its initialization. */
 size_t tree_work_size(const struct fbd_model *model);

@@ -143,7 +143,7 @@ static void set_coupling_slots(const struct tree *tree, const struct plan *plan,
             slots_along[coupling->slack_slot[0]] = both + half;
             slots_along[coupling->slack_slot[1]] = both - half;
         }
-        if (coupling_presses(coupling)) slots_along[coupling->normal_slot] = -z[coupling->first_row];
+        if (coupling_has_normal(coupling)) slots_along[coupling->normal_slot] = -z[coupling->first_row];
         if (coupling->kind == constraint_plane)
             slots_along[plan->modes[coupling->pair].hold_slot] =
                 -size_along(&rows[coupling->first_row], &z[coupling->first_row]);

@@ -164,7 +164,7 @@ int rope_load(const struct fbd_model *model, int b, const struct arrow *arrow)
 {
     for (int i = 0; i < model->tree->coupling_count; i++) {
         const struct coupling *coupling = &model->tree->couplings[i];
-        if (coupling->kind != constraint_rope && !coupling->source->begins) continue;
+        if (coupling->kind != constraint_rope && !coupling->source->lifetime.begins) continue;
         for (int k = 0; k < coupling->end_count; k++)
             if (coupling->end[k].body == b && coupling->end[k].name[0] == arrow->name) return coupling->load;
     }

@@ -169,7 +169,7 @@ static bool answers_alone(struct gathered *all, size_t k)
     for (size_t g = 0; g < all->problem.guide_count; g++) { /* of a slot: the multiplier of its normal row */
         const int coupling = mode_of(state, all->guide[g])->coupling;
         if (coupling >= 0)
-            all->problem.B[g * all->problem.count + k] = work->z[tree->couplings[coupling].first_row];
+            all->problem.B[g * all->problem.count + k] = work->z[tree->couplings[coupling].normal_row];
     }
     return all->problem.A[k * all->problem.count + k] <= immovable * alone;
 }

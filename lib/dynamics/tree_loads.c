@@ -63,6 +63,7 @@ static struct arm second_arm(const struct tree_spring *spring, const struct tree
 
 static void spring(const struct tree_spring *spring, const struct instant *at)
 {
+    if (!is_there(at->tree, spring->lifetime)) return;
     const struct tree_state *links = at->tree->links;
     struct tree_rhs *x = at->tree->x;
     struct arm first = arm_of(&links[spring->link[0]], spring->point[0]);
@@ -83,6 +84,7 @@ static void actuator_along(const struct tree_spring *spring, const struct instan
                            const struct direction *along)
 {
     const struct tree_work *work = at->tree;
+    if (!is_there(work, spring->lifetime)) return;
     const struct tree_state *s = &work->links[spring->link[0]], *t = &work->links[spring->link[1]];
     const struct tree_variation *dt = &work->variation[spring->link[1]];
     const struct arm first = arm_of(s, spring->point[0]);
@@ -109,6 +111,7 @@ static void actuator_along(const struct tree_spring *spring, const struct instan
 static void spring_along(const struct tree_spring *spring, const struct tree_work *work)
 {
     struct arm arm[2], d[2];
+    if (!is_there(work, spring->lifetime)) return;
     for (int end = 0; end < 2; end++) {
         const struct tree_state *s = &work->links[spring->link[end]];
         arm[end] = arm_of(s, spring->point[end]);
@@ -124,6 +127,7 @@ static void spring_along(const struct tree_spring *spring, const struct tree_wor
 
 static void force(const struct tree_force *force, const struct instant *at)
 {
+    if (!is_there(at->tree, force->lifetime)) return;
     const struct tree_state *s = &at->tree->links[force->link];
     struct vec d = formula_is_constant(&force->angle)
                        ? force->direction
@@ -138,6 +142,7 @@ static void force_along(const struct tree_force *force, const struct instant *at
 {
     const struct tree_state *s = &at->tree->links[force->link];
     const struct tree_variation *variation = &at->tree->variation[force->link];
+    if (!is_there(at->tree, force->lifetime)) return;
     double d_angle, d_value, angle = formula_along(&force->angle, at, along, &d_angle);
     double value = formula_along(&force->value, at, along, &d_value);
     struct vec u = vec_unit(angle + force->turn);
@@ -151,8 +156,10 @@ static void force_along(const struct tree_force *force, const struct instant *at
     apply_along(&at->tree->x[force->link], &arm, &d, f, df);
 }
 
-static void moment(const struct tree_moment *moment, double value, struct tree_rhs *x)
+static void moment(const struct tree_moment *moment, double value, const struct tree_work *work)
 {
+    struct tree_rhs *x = work->x;
+    if (!is_there(work, moment->lifetime)) return;
     x[moment->link].p.moment -= value;
     if (moment->partner > 0) x[moment->partner].p.moment += value;
 }
@@ -172,10 +179,11 @@ void tree_load(const struct tree *tree, const struct instant *at, const struct l
     }
     for (int i = of[list_forces].first; i < range_end(of[list_forces]); i++) force(&tree->forces[i], at);
     for (int i = of[list_moments].first; i < range_end(of[list_moments]); i++)
-        moment(&tree->moments[i], formula_value(&tree->moments[i].value, at), x);
+        moment(&tree->moments[i], formula_value(&tree->moments[i].value, at), at->tree);
     for (int i = of[list_springs].first; i < range_end(of[list_springs]); i++) spring(&tree->springs[i], at);
     for (int i = of[list_drags].first; i < range_end(of[list_drags]); i++) {
         const struct tree_drag *drag = &tree->drags[i];
+        if (!is_there(at->tree, drag->lifetime)) continue;
         struct arm arm = arm_of(&links[drag->link], drag->point);
         struct drag_law law = {drag->linear, drag->quadratic};
         apply(&x[drag->link], arm.r, drag_force(&law, arm.at.v));
@@ -199,7 +207,7 @@ void tree_load_along(const struct tree *tree, const struct instant *at, const st
     for (int i = of[list_moments].first; i < range_end(of[list_moments]); i++) {
         double variation_of_moment;
         formula_along(&tree->moments[i].value, at, along, &variation_of_moment);
-        moment(&tree->moments[i], variation_of_moment, x);
+        moment(&tree->moments[i], variation_of_moment, at->tree);
     }
     for (int i = of[list_springs].first; i < range_end(of[list_springs]); i++)
         if (tree->springs[i].actuated)
@@ -208,6 +216,7 @@ void tree_load_along(const struct tree *tree, const struct instant *at, const st
             spring_along(&tree->springs[i], at->tree);
     for (int i = of[list_drags].first; i < range_end(of[list_drags]); i++) {
         const struct tree_drag *drag = &tree->drags[i];
+        if (!is_there(at->tree, drag->lifetime)) continue;
         struct arm arm = arm_of(&links[drag->link], drag->point);
         struct arm d = arm_along(&links[drag->link], &variation[drag->link], &arm);
         struct drag_law law = {drag->linear, drag->quadratic};

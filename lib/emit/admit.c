@@ -191,10 +191,13 @@ static void check_friction(const struct fbd_model *model, fbd_errors *errors)
 
 static void check_events(const struct fbd_model *model, fbd_errors *errors)
 {
-    for (size_t i = 0; i < model->plan.watch_count; i++)
-        if (model->plan.watches[i].reacts)
-            lacks(errors, model->plan.watches[i].source->at, "an event that names a reaction",
-                  model->plan.watches[i].source->name);
+    for (size_t i = 0; i < model->plan.watch_count; i++) {
+        const struct user_event *source = model->plan.watches[i].source;
+        if (source->lifetime > 0)
+            lacks(errors, source->at, "a force or coupling that begins or ends", source->name);
+        else if (model->plan.watches[i].reacts)
+            lacks(errors, source->at, "an event that names a reaction", source->name);
+    }
 }
 
 static void check_calls(const struct fbd_model *model, fbd_errors *errors)

@@ -404,12 +404,12 @@ static double user_rate(const struct watch *watch, struct fbd_state *state)
     return rate;
 }
 
-/* Does the coupling that begins or ends there wait for the other one, or has it begun or ended? */
+/* Does the force or coupling that begins or ends there wait for the other one, or has it begun or ended? */
 static bool watch_is_over(const struct fbd_state *state, const struct watch *watch)
 {
-    const struct coupling_state *couplings = state->tree->couplings;
-    return (watch->begins >= 0 && !couplings[watch->begins].waits) ||
-           (watch->ends >= 0 && couplings[watch->ends].gone);
+    const int lifetime = watch->source->lifetime;
+    return lifetime > 0 &&
+           state->tree->life[lifetime - 1] != (watch->source->begins ? life_waits : life_there);
 }
 
 void watchers_arm(struct watchers *watchers, struct fbd_state *state, double step)

@@ -157,15 +157,15 @@ static void user_event(struct run *run, int watch, bool touched)
     run->watchers.armed[watch] = touched ? 0 : -run->watchers.armed[watch];
     run->watchers.fired[watch] = run->state->t;
     if (!counts) return;
-    if (watch_of_coupling(source)) {
-        run_change_coupling(run, watch);
+    if (watch_of_lifetime(source)) {
+        run_change_lifetime(run, watch);
         return;
     }
     log_event(run, FBD_EVENT_USER, -1, -1, watch);
     if (source->stop && run->end.outcome == FBD_GOING) run->end.outcome = FBD_STOPPED;
 }
 
-/* Is one of the user events that have crossed the end of the run, or of a coupling? */
+/* Is one of the user events that have crossed the end of the run, or the end or begin of a force or coupling? */
 static bool stops(const struct run *run)
 {
     const struct watcher_set *set = &run->watchers.moving;
@@ -173,7 +173,7 @@ static bool stops(const struct run *run)
         int index = set->watchers[i].index;
         if (!run->search.moving.crossed[i] || set->watchers[i].kind != watch_user) continue;
         const struct user_event *source = run->model->plan.watches[index].source;
-        if ((source->stop || watch_of_coupling(source)) && counts_now(run, index)) return true;
+        if ((source->stop || watch_of_lifetime(source)) && counts_now(run, index)) return true;
     }
     return false;
 }
@@ -487,7 +487,7 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
 
 void run_apply_endings(struct run *run)
 {
-    while (run_change_couplings(run)) { /* each begins and ends once */
+    while (run_change_lifetimes(run)) { /* each begins and ends once */
         state_copy(run->during, run->state);
         apply_once(run, NULL, NULL);
     }

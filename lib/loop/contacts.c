@@ -483,14 +483,14 @@ static void note_change(struct run *run, int index)
 void run_release_contacts(struct run *run)
 {
     if (!has_meetings(run->model)) return;
-    const struct tree *tree = tree_of(run);
+    const struct coupling *couplings = tree_of(run)->couplings;
     bool *changed = run->contacts.moves;
     stop_what_opens(run);
-    for (int i = 0; i < tree->coupling_count; i++) {
+    for (int i = 0; i < tree_of(run)->coupling_count; i++) {
         changed[i] = false;
-        if (tree->couplings[i].kind != constraint_contact) continue;
+        if (couplings[i].kind != constraint_contact) continue;
         bool now = is_closed(run, run->state, i);
-        changed[i] = now != run->contacts.was_closed[i] && !run->state->tree->couplings[i].gone;
+        changed[i] = now != run->contacts.was_closed[i] && !coupling_is_gone(run->state->tree, &couplings[i]);
         run->contacts.was_closed[i] = now;
         if (!now) run->state->tree->couplings[i].feature = no_feature;
         if (changed[i]) note_change(run, i);

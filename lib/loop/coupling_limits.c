@@ -306,7 +306,8 @@ void run_watch_slots(struct run *run, struct time_dd *t)
 {
     const struct tree *tree = run->model->tree;
     for (int i = 0; tree && i < tree->coupling_count; i++) {
-        if (!slot_is_open(&tree->couplings[i], run->during->slip) || run->during->tree->couplings[i].gone)
+        if (!slot_is_open(&tree->couplings[i], run->during->slip) ||
+            coupling_is_gone(run->during->tree, &tree->couplings[i]))
             continue;
         for (int k = 0; k < 2 && run->end.outcome == FBD_GOING; k++) {
             const struct end end = {run, i, k, false};
@@ -367,7 +368,7 @@ double run_flights(struct run *run, double from, double to)
     const struct tree *tree = run->model->tree;
     for (int i = 0; tree && i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
-        if (run->during->tree->couplings[i].gone) continue;
+        if (coupling_is_gone(run->during->tree, coupling)) continue;
         if (slot_is_open(coupling, run->during->slip) || is_slack(run->during, coupling))
             to = until_near(run, i, from, to);
     }
@@ -380,7 +381,7 @@ void run_watch_ends(struct run *run, struct time_dd *t)
 {
     const struct tree *tree = run->model->tree;
     for (int i = 0; tree && i < tree->coupling_count && run->end.outcome == FBD_GOING; i++)
-        if (!run->during->tree->couplings[i].gone) watch_coupling(run, i, t);
+        if (!coupling_is_gone(run->during->tree, &tree->couplings[i])) watch_coupling(run, i, t);
 }
 
 void run_check_ends(struct run *run)

@@ -68,7 +68,8 @@ void energy_guard_events(struct run *run, double before)
 static bool has_potentials(const struct fbd_model *model)
 {
     for (size_t i = 0; i < model->load_count; i++)
-        if (model->loads[i].potential_kind == potential_none) return false;
+        if (model->loads[i].potential_kind == potential_none || model->loads[i].source->lifetime.number > 0)
+            return false;
     return true;
 }
 

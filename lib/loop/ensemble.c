@@ -247,6 +247,7 @@ struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, s
     if (!ensemble_probe(ensemble, group)) return NULL;
     if (!forces && within) {
         state_set_moment(group->probe, t);
+        if (group->model->tree->ends) state_copy_lives(group->probe, run->during);
         return run_coordinates(run, t, group->probe->y) ? group->probe : NULL;
     }
     bool seen = at_end ? look_at_end(run, group->probe) : within && run_look(run, t, group->probe);
@@ -329,19 +330,21 @@ static void scatter_modes(const struct group *group, const struct fbd_state *par
     }
 }
 
-/* The couplings that have begun or ended, with the references of those that begin. Those of one constraint are successive,
- * here and in the whole. */
+/* The forces and couplings that have begun or ended, with the references of couplings that begin. Those of one constraint
+ * are successive, here and in the whole. */
 static void scatter_ends(const struct group *group, const struct fbd_state *part, struct fbd_state *state)
 {
     const struct tree *tree = group->model->tree, *whole = state->model->tree;
+    for (size_t i = 0; whole->ends && i < group->model->plan.watch_count; i++) {
+        const int lifetime = group->model->plan.watches[i].source->lifetime;
+        if (lifetime > 0) state->tree->life[lifetime - 1] = part->tree->life[lifetime - 1];
+    }
     for (int i = 0, k = 0; whole->ends && i < tree->coupling_count; i++) {
         const int local = tree->couplings[i].constraint;
         const int constraint = group->selection ? group->selection->constraints[local] : local;
         if (i == 0 || tree->couplings[i - 1].constraint != local) k = 0;
         while (whole->couplings[k].constraint != constraint) k++;
-        state->tree->couplings[k].gone = part->tree->couplings[i].gone;
-        state->tree->couplings[k].waits = part->tree->couplings[i].waits;
-        if (tree->couplings[i].source->begins) state->tree->couplings[k] = part->tree->couplings[i];
+        if (tree->couplings[i].source->lifetime.begins) state->tree->couplings[k] = part->tree->couplings[i];
         k++;
     }
 }

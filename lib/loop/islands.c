@@ -77,10 +77,12 @@ static int join_constraint(const struct scene *scene, int *parent, const struct 
     return body;
 }
 
-/* Join the bodies of the condition at which a constraint begins or ends with those of the constraint. */
-static int join_end(const struct scene *scene, int *parent, const struct constraint *constraint, int read)
+/* Join the bodies in the condition at which a force or constraint begins or ends, of which `read` is one, with the
+ * body that it acts on, which is returned. */
+static int join_end(const struct fbd_model *model, int *parent, const struct watch *watch, int read)
 {
-    const int body = join_constraint(scene, parent, constraint);
+    const int body = watch->load >= 0 ? model->loads[watch->load].body
+                                      : constraint_first_body(model->tree->couplings[watch->coupling].source);
     if (read >= 0) join(parent, body, read);
     return body;
 }
@@ -123,8 +125,7 @@ static void join_all(const struct fbd_model *model, int *parent, struct items *i
     for (size_t i = 0; i < scene->event_count; i++) {
         int read = join_read(scene, parent, scene->events[i].left, -1);
         read = join_read(scene, parent, scene->events[i].right, read);
-        const int of = scene->events[i].begins + scene->events[i].ends; /* one of them is 0 */
-        if (of > 0) read = join_end(scene, parent, &scene->constraints[of - 1], read);
+        if (scene->events[i].lifetime > 0) read = join_end(model, parent, &model->plan.watches[i], read);
         group[of_event][i] = read < 0 ? 0 : read;
     }
     for (size_t i = 0; i < scene->force_coupling_count; i++) {

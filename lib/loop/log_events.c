@@ -27,8 +27,7 @@ static void note_one_sided(struct run *run, const struct change *change)
 {
     const struct mode *mode = &run->model->plan.modes[change->pair];
     if (mode_has_ended(run->state, change->pair)) return;
-    const bool begins = run->during->tree->couplings[mode->coupling].waits; /* has an event of its own */
-    if (begins) return;
+    if (mode_has_ended(run->during, change->pair)) return; /* it begins, which has an event of its own */
     run->watchers.quiet[change->pair] = left_beyond(run, change->pair);
     bool rope = run->model->tree->couplings[mode->coupling].law->way;
     if (change->before == stick && change->after != stick)

@@ -94,7 +94,7 @@ bool close_taut_ropes(struct run *run)
     for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
         if (coupling->kind != constraint_rope || run->state->slip[coupling->pair] == stick) continue;
-        if (run->state->tree->couplings[i].gone) continue;
+        if (coupling_is_gone(run->state->tree, coupling)) continue;
         struct one_sided rope = one_sided_at(run->model, &at, coupling->pair);
         if (!(rope.excess >= -rope.rounding)) continue;
         run->state->slip[coupling->pair] = stick;

@@ -33,11 +33,12 @@ static void bind_rates(struct run *run)
 
 /* ---- allocation and start */
 
-/* Do the works of all loads follow from potentials? */
+/* Do the works of all loads follow from potentials that are there all the time? */
 static bool has_potentials(const struct fbd_model *model)
 {
     for (size_t i = 0; i < model->load_count; i++)
-        if (model->loads[i].potential_kind == potential_none) return false;
+        if (model->loads[i].potential_kind == potential_none || model->loads[i].source->lifetime.number > 0)
+            return false;
     return true;
 }
 
@@ -178,6 +179,8 @@ static void start(struct run *run)
     log_lifts_at_start(run);
     run_check_counts(run);
     run_apply_endings(run);
+    /* Potentials are those of the forces that are there after it. */
+    memset(run->impact_work, 0, run->model->coupled_count * sizeof *run->impact_work);
     energy_guard_begin(run);
     projection_begin(run);
     watchers_arm(&run->watchers, run->state, 0);

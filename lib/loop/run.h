@@ -320,18 +320,18 @@ void step_past_switch(struct run *run);
  * for none. Settles the modes. */
 void run_apply(struct run *run, const bool *timed, const bool *moving);
 
-/* Let couplings begin and end whose conditions are true at run->state, and settle the modes. `during` is free. */
+/* Let forces and couplings begin and end whose conditions are true at run->state, and settle the modes. `during` is free. */
 void run_apply_endings(struct run *run);
 
-/* Let the coupling of a watch begin or end; no effect if it has already. The modes are to be settled (run->ended). The
- * same for all watches whose conditions are true: whether the modes are to be settled (coupling_events.c). */
-void run_change_coupling(struct run *run, int watch);
-bool run_change_couplings(struct run *run);
+/* Let the force or coupling of a watch begin or end; no effect if it has already. The modes are to be settled
+ * (run->ended). The same for all watches whose conditions are true: whether the modes are to be settled (lifetime_events.c). */
+void run_change_lifetime(struct run *run, int watch);
+bool run_change_lifetimes(struct run *run);
 
-/* Is it the begin or the end of a coupling? */
-static inline bool watch_of_coupling(const struct user_event *event)
+/* Is it the begin or the end of a force or coupling? */
+static inline bool watch_of_lifetime(const struct user_event *event)
 {
-    return event->begins > 0 || event->ends > 0;
+    return event->lifetime > 0;
 }
 
 /* Log the user events that have crossed at t; false when one of them ends the run. */

@@ -55,7 +55,8 @@ void run_choose_method(struct run *run)
  * except in a Filippov sliding mode. */
 bool run_start_linear(struct run *run)
 {
-    const int *modes = state_sliding(run->during) ? NULL : run->during->branch;
+    const bool kept = !state_sliding(run->during) && !run->model->tree->ends;
+    const int *modes = kept ? run->during->branch : NULL;
     if (!linear_pace_start(&run->pace, &run->system, run->state->t, run->work.y, modes)) {
         run_fail(run, FBD_OUT_OF_MEMORY, "out of memory");
         return false;

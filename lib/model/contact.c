@@ -280,6 +280,7 @@ static bool set_meeting(struct fbd_model *model, int index, int i, struct meetin
     int count = shapes_of(model, source, 1);
     *meeting = (struct meeting){.constraint = index,
                                 .first_coupling = model->tree->coupling_count,
+                                .lifetime = source->lifetime.number,
                                 .stop = source->contact.stop,
                                 .limit = source->contact.limit};
     if (!set_shape(model, source, 0, i / count, &meeting->shape[0]) ||

@@ -41,6 +41,7 @@ enum contact_inner { inner_begin = 1, inner_end = 2, inner_flat = 4 };
 
 struct meeting {
     int constraint, first_coupling, coupling_count;
+    int lifetime; /* its number (scene/loads.h), or 0 */
     struct contact_shape shape[2];
     double size,
         reach; /* of the shapes and the start positions of bodies: the reference length of distances */

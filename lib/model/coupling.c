@@ -160,7 +160,8 @@ static void set_plane(struct tree *tree)
     tree->plane_count++;
 }
 
-/* Rolling resistance acts along its only row; its normal force is that of the roll before it. */
+/* Rolling resistance and the friction of a gear act along their only row; their normal force is that of the roll or gear
+ * before them. */
 static void set_resistance(struct tree *tree)
 {
     struct coupling *own = &tree->couplings[tree->coupling_count - 1], *roll = own - 1;

@@ -48,7 +48,7 @@ struct coupling {
     int slack_slot[2];            /* slots of minus their tensions */
     int normal_slot;              /* roll, one-sided or rough slot: slot of minus its normal force */
     int normal_row, along_row;    /* with friction: the rows of its normal force and of the friction */
-    int resistance;               /* roll: the coupling of its rolling resistance, or -1 */
+    int resistance;               /* roll, gear: the coupling of its rolling resistance or friction, or -1 */
     int load;                     /* roll, rope: its entry in the model's loads */
     int pair;    /* roll, contact: mode of its dry friction; rope: its mode; index into plan.modes, or -1 */
     int surface; /* roll, contact: the mode of its normal force, closed (`stick`) or open; index into
@@ -84,6 +84,12 @@ bool model_has_speeds_given(const struct fbd_model *model);
 static inline bool coupling_presses(const struct coupling *coupling)
 {
     return coupling->law->surface || coupling->source->presses != 0;
+}
+
+/* True if its first row is the normal force of a friction, its own or that behind it. */
+static inline bool coupling_has_normal(const struct coupling *coupling)
+{
+    return coupling_presses(coupling) || coupling->resistance >= 0;
 }
 
 /* True if it has friction along one of its rows. */

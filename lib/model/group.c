@@ -72,10 +72,6 @@ static void copy_event(const struct copy *copy, const struct user_event *from)
     *event = *from;
     renumber(copy, &event->left);
     renumber(copy, &event->right);
-    for (size_t i = 0; i < copy->selection->constraint_count; i++) {
-        if (copy->selection->constraints[i] == from->begins - 1) event->begins = 1 + (int)i;
-        if (copy->selection->constraints[i] == from->ends - 1) event->ends = 1 + (int)i;
-    }
 }
 
 static void copy_coupling(const struct copy *copy, const struct force_coupling *from)

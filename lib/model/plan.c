@@ -2,6 +2,8 @@
  *
  * From named loads to dense lists: forces in joints and dry friction; all others are added to the tree.
  */
+#include <stdlib.h>
+
 #include "model/builder.h"
 
 static void add_potential(struct builder *builder, const struct model_body *body,
@@ -133,7 +135,7 @@ static bool allocate(struct builder *builder)
     plan->own = (int)model->scene->own_count;
     plan->size = scene_size(model->scene);
     plan->inverse_inertia = ARENA_ARRAY(arena, (size_t)plan->n, double);
-    plan->affine = ARENA_ARRAY(arena, (size_t)plan->n, struct affine_term);
+    plan->affine = ARENA_ARRAY(arena, (size_t)plan->n + loads, struct affine_term);
     builder->affine = ARENA_ARRAY(arena, (size_t)plan->n, struct affine_term);
     plan->potentials = ARENA_ARRAY(arena, most_coordinates_of_a_body * loads, struct potential_term);
     plan->modes = ARENA_ARRAY(arena, loads + 8 * model->scene->constraint_count + 2 * couplings, struct mode);
@@ -159,6 +161,13 @@ static void plan_inertias(struct fbd_model *model)
     }
 }
 
+static int by_coordinate(const void *a, const void *b)
+{
+    const struct affine_term *one = a, *other = b;
+    const int first = one->coordinate - other->coordinate;
+    return first != 0 ? first : one->lifetime - other->lifetime;
+}
+
 /* Keep the nonzero terms, in the order of the coordinates. */
 static void pack(struct builder *builder)
 {
@@ -167,9 +176,12 @@ static void pack(struct builder *builder)
     for (int i = 0; i < plan->n; i++) {
         struct affine_term affine = builder->affine[i];
         affine.coordinate = i;
-        affine.link = model->bodies[model->scene->coordinates[i].body].place.link;
         if (affine.c0 != 0 || affine.kq != 0 || affine.kv != 0) plan->affine[plan->affine_count++] = affine;
     }
+    qsort(plan->affine, plan->affine_count, sizeof *plan->affine, by_coordinate);
+    for (size_t i = 0; i < plan->affine_count; i++)
+        plan->affine[i].link =
+            model->bodies[model->scene->coordinates[plan->affine[i].coordinate].body].place.link;
 }
 
 /* Of bodies that stand alone the equation tells which forces are constant; others, as those of couplings, may

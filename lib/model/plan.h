@@ -33,6 +33,7 @@ static inline bool formula_is_constant(const struct formula *formula)
 /* A spring, damper or constant force in a joint: Q += c0 - kq q - kv v. */
 struct affine_term {
     int coordinate, link;
+    int lifetime; /* its number (scene/loads.h), or 0 */
     double c0, kq, kv;
 };
 
@@ -126,8 +127,9 @@ struct pole {
 struct watch {
     const struct user_event *source;
     struct formula left, right;
-    bool reacts;      /* it names a reaction */
-    int begins, ends; /* the first coupling of the constraint that begins or ends there, or -1 */
+    bool reacts;  /* it names a reaction */
+    int coupling; /* the first coupling of the constraint that begins or ends there, or -1 */
+    int load;     /* the force or moment that does, or -1 */
 };
 
 /* Variables that a sum of forces may depend on. */

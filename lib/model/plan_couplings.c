@@ -46,14 +46,18 @@ static void plan_surface(struct builder *builder, struct coupling *coupling)
         builder_formula(builder, &coupling->source->surface_speed, body, coupling->load);
 }
 
-/* Rolling resistance is friction with the normal force of its roll. */
+/* Rolling resistance is friction with the normal force of its roll, that of a gear with the force of its teeth, which has
+ * either sign. */
 static void plan_resistance(struct builder *builder, struct coupling *coupling)
 {
-    const struct coupling *roll = coupling - 1;
-    coupling->normal_slot = roll->normal_slot;
-    coupling->surface = roll->surface;
+    struct coupling *of = coupling - 1;
+    const bool gear = of->kind == constraint_gear;
+    if (gear) of->normal_slot = builder->model->plan.slots++;
+    coupling->normal_slot = of->normal_slot;
+    coupling->surface = of->surface;
     add_rubbing(builder, coupling);
     builder->model->plan.modes[coupling->pair].moment = true;
+    builder->model->plan.modes[coupling->pair].two_sided = gear;
 }
 
 /* A rope is taut or slack. */

@@ -28,7 +28,7 @@ static double *row_at(const struct elimination *all, int i)
 
 static bool is_constant(const struct coupling *coupling)
 {
-    return coupling->kind == constraint_ratio && !coupling->source->begins && !coupling->source->ends;
+    return coupling->kind == constraint_ratio && coupling->source->lifetime.number == 0;
 }
 
 static void fill(const struct tree *tree, const struct coupling *coupling, double *row)

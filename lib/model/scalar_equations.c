@@ -161,6 +161,10 @@ static void find_known(struct fbd_model *model)
         for (int end = 0; end < 2; end++)
             if (tree->springs[i].link[end] > 0) forget(model, tree->springs[i].link[end]);
     for (size_t i = 0; i < plan->potential_count; i++) forget(model, plan->potentials[i].link);
+    for (size_t i = 0; i < model->load_count; i++) {
+        const int link = model->bodies[model->loads[i].body].place.link;
+        if (model->loads[i].source->lifetime.number > 0 && link > 0) forget(model, link);
+    }
 }
 
 /* Set the place of a list behind `first` others, to be filled anew; returns the number with it. */

@@ -223,16 +223,26 @@ static void add_following(struct builder *builder, const struct model_body *body
     tree->following[tree->following_count++] = (struct tree_following){body->place.link, turned, moment};
 }
 
+/* Is it the same at all times? */
+static bool is_steady(const struct model_load *load, const struct formula *value)
+{
+    return formula_is_constant(value) && load->source->lifetime.number == 0;
+}
+
 /* The opposite acts on `partner`, NULL for none. */
 static void add_moment(struct builder *builder, const struct model_body *body,
-                       const struct model_body *partner, const struct formula *value)
+                       const struct model_body *partner, const struct model_load *load,
+                       const struct formula *value)
 {
     struct tree *tree = builder->model->tree;
     const struct vec none = {0, 0};
     if (formula_is_constant(value) && value->constant == 0) return;
-    if (!formula_is_constant(value)) {
+    if (!is_steady(load, value)) {
         tree->moments[tree->moment_count++] =
-            (struct tree_moment){body->place.link, partner ? partner->place.link : 0, *value};
+            (struct tree_moment){.link = body->place.link,
+                                 .partner = partner ? partner->place.link : 0,
+                                 .lifetime = load->source->lifetime.number,
+                                 .value = *value};
         return;
     }
     add_following(builder, body, none, none, value->constant);
@@ -249,6 +259,7 @@ static void add_varying(struct builder *builder, const struct model_body *body, 
                             .point = placement_point(&body->place, load->point),
                             .turn = turn,
                             .body_frame = body_frame,
+                            .lifetime = load->source->lifetime.number,
                             .value = *value,
                             .angle = angle,
                             .direction = vec_unit(angle.constant + turn)};
@@ -260,7 +271,7 @@ static void add_directed(struct builder *builder, const struct model_body *body,
                          bool body_frame)
 {
     struct vec f = vec_scale(value->constant, vec_unit(angle));
-    if (!formula_is_constant(value))
+    if (!is_steady(load, value))
         add_varying(builder, body, load, body_frame, value, formula_constant(angle));
     else if (body_frame)
         add_following(builder, body, load->point, f, 0);
@@ -282,7 +293,7 @@ static void add_applied(struct builder *builder, const struct model_body *body, 
     } else {
         add_varying(builder, body, load, frame, &load->value, load->angle);
     }
-    if (load_is_placed(load->source)) add_moment(builder, body, NULL, &load->couple);
+    if (load_is_placed(load->source)) add_moment(builder, body, NULL, load, &load->couple);
 }
 
 /* Add the term of the wind, and the drag as in still air. */
@@ -297,8 +308,21 @@ static void add_drag(struct builder *builder, const struct model_body *body, con
     }
     if (load_drags_still_air(source))
         tree->drags[tree->drag_count++] =
-            (struct tree_drag){body->place.link, placement_point(&body->place, load->point), source->linear,
-                               source->quadratic};
+            (struct tree_drag){body->place.link, source->lifetime.number,
+                               placement_point(&body->place, load->point), source->linear, source->quadratic};
+}
+
+/* Of the term of a coordinate in the equations, those that are always there have one, others one each. */
+static void add_affine(struct builder *builder, int coordinate, const struct load *source)
+{
+    struct plan *plan = &builder->model->plan;
+    struct affine_term *term =
+        source->lifetime.number > 0 ? &plan->affine[plan->affine_count++] : &builder->affine[coordinate];
+    term->coordinate = coordinate;
+    term->lifetime = source->lifetime.number;
+    term->kq += source->stiffness;
+    term->kv += source->coefficient;
+    term->c0 += source->stiffness * source->free_length;
 }
 
 static void add_spring(struct builder *builder, const struct model_body *body, const struct model_load *load)
@@ -306,15 +330,13 @@ static void add_spring(struct builder *builder, const struct model_body *body, c
     struct tree *tree = builder->model->tree;
     const struct load *source = load->source;
     if (!load->linked) {
-        struct affine_term *term = &builder->affine[body->first];
-        term->kq += source->stiffness;
-        term->kv += source->coefficient;
-        term->c0 += source->stiffness * source->free_length;
+        add_affine(builder, body->first, source);
         return;
     }
     struct tree_spring *spring = &tree->springs[tree->spring_count++];
     *spring = (struct tree_spring){.link = {body->place.link, 0},
                                    .point = {placement_point(&body->place, load->point), load->anchor},
+                                   .lifetime = source->lifetime.number,
                                    .stiffness = source->stiffness,
                                    .free_length = source->free_length,
                                    .damping = source->coefficient};
@@ -327,15 +349,6 @@ static void add_spring(struct builder *builder, const struct model_body *body, c
     spring->link[1] = partner->link;
     spring->point[1] = placement_point(partner, load->anchor);
     spring->along = vec_turn(partner->turn, spring->along);
-}
-
-static void add_joint_spring(struct builder *builder, const struct model_body *body,
-                             const struct load *source)
-{
-    struct affine_term *term = &builder->affine[body->first + body->count - 1];
-    term->kq += source->stiffness;
-    term->kv += source->coefficient;
-    term->c0 += source->stiffness * source->free_length;
 }
 
 static struct tree_bulk *bulk_of(struct builder *builder, int b)
@@ -368,11 +381,11 @@ void tree_add_load(struct builder *builder, int index)
     case load_actuator: add_spring(builder, body, load); break;
     case load_drag: add_drag(builder, body, load); break;
     case moment_applied:
-        add_moment(builder, body, load->partner < 0 ? NULL : &builder->model->bodies[load->partner],
+        add_moment(builder, body, load->partner < 0 ? NULL : &builder->model->bodies[load->partner], load,
                    &load->value);
         break;
     case moment_spring:
-    case moment_damper: add_joint_spring(builder, body, source); break;
+    case moment_damper: add_affine(builder, body->first + body->count - 1, source); break;
     case load_drive:
     case load_rope:
     case load_belt:
@@ -384,111 +397,4 @@ void tree_add_load(struct builder *builder, int index)
     case load_potential:
     case moment_potential: break; /* plan.c */
     }
-}
-
-/* ---- diagrams */
-
-/* True if it acts between the two bodies of its joint. */
-static bool is_in_joint(const struct model_load *load)
-{
-    enum law_place place = load_law(load->source)->place;
-    return place == acts_in_joint || (place == acts_in_joint_without_end && !load->linked);
-}
-
-static bool has_normal(const struct fbd_model *model, const struct model_body *body)
-{
-    for (int i = body->first_load; i < body->first_load + body->load_count; i++)
-        if (model->loads[i].source->kind == load_normal) return true;
-    return false;
-}
-
-static bool is_off_center(const struct model_body *body, struct vec at)
-{
-    return at.x != body->inertia.G.x || at.y != body->inertia.G.y;
-}
-
-/* Mark bodies with constraint forces off their centre of mass; on a line for rolling, they act at any point. */
-static void find_held(const struct fbd_model *model, bool *twisted)
-{
-    for (size_t c = 0; c < model->scene->constraint_count; c++) {
-        const struct constraint *constraint = &model->scene->constraints[c];
-        for (int k = 0; k < constraint->end_count; k++) {
-            const struct point *point = &constraint->point[k];
-            int b = constraint->body[k];
-            if (b == ground_body) continue;
-            bool wound = (k == 0 && constraint->wound[0] != 0) ||
-                         (k + 1 == constraint->end_count && constraint->wound[1] != 0);
-            if ((constraint_laws[constraint->kind].line && k == 1) || wound ||
-                (point->kind == point_fixed && is_off_center(&model->bodies[b], point->where)))
-                twisted[b] = true;
-        }
-    }
-}
-
-/* Find the bodies with a force that would turn them if they were particles that could turn. Computed for all
- * at once, as a coupling is not in the lists of the bodies that it joins. */
-static bool *find_twisted(struct fbd_model *model)
-{
-    bool *twisted = ARENA_ARRAY(&model->arena, model->body_count, bool);
-    for (size_t i = 0; twisted && i < model->load_count; i++) {
-        const struct model_load *load = &model->loads[i];
-        bool at_origin = load->source->kind == load_potential;
-        if (load_is_placed(load->source) ||
-            is_off_center(&model->bodies[load->body], at_origin ? (struct vec){0, 0} : load->point))
-            twisted[load->body] = true;
-        const bool couple = load->source->kind == moment_applied || load->source->guided;
-        if (load->partner >= 0 && (couple || is_off_center(&model->bodies[load->partner], load->anchor)))
-            twisted[load->partner] = true;
-        if (load->linked && load->source->kind == moment_applied) twisted[load->body] = true;
-    }
-    if (twisted) find_held(model, twisted);
-    return twisted;
-}
-
-/* The name of the joint force beside the listed loads: a slide with `normal` has it in its list. */
-static const char *reaction_of(const struct fbd_model *model, const struct model_body *body, bool twisted)
-{
-    const bool bears = !body->alone && (twisted || body->parent != ground_body || body->child >= 0);
-    if (body->joint->path != path_none && has_normal(model, body)) return NULL;
-    return body->joint->prevents_turning && !bears ? NULL : body->joint->force;
-}
-
-static void name_reactions(struct fbd_model *model, struct model_body *body, bool twisted)
-{
-    struct arena *arena = &model->arena;
-    body->reaction = reaction_of(model, body, twisted);
-    for (int i = body->first_load; i < body->first_load + body->load_count; i++)
-        model->loads[i].in_joint = is_in_joint(&model->loads[i]);
-    if (body->parent == ground_body) return;
-    struct model_body *parent = &model->bodies[body->parent];
-    if (body->reaction) {
-        body->reaction_on_parent = arena_printf(arena, "%s.%s", body->name, body->reaction);
-        parent->arrow_count++;
-    }
-    for (int i = body->first_load; i < body->first_load + body->load_count; i++) {
-        struct model_load *load = &model->loads[i];
-        if (!load->in_joint) continue;
-        load->name_on_parent = arena_printf(arena, "%s.%s", body->name, load->source->name);
-        parent->arrow_count++;
-    }
-}
-
-bool tree_name_reactions(struct fbd_model *model)
-{
-    const struct tree *tree = model->tree;
-    const int count = (int)model->body_count;
-    const bool *twisted = find_twisted(model);
-    for (int i = 0; twisted && i < count; i++) {
-        int b = tree->bodies[count - 1 - i]; /* lists of children in the order of the tree */
-        struct model_body *body = &model->bodies[b];
-        name_reactions(model, body, twisted[b]);
-        if (body->parent == ground_body) continue;
-        body->sibling = model->bodies[body->parent].child;
-        model->bodies[body->parent].child = b;
-    }
-    for (size_t i = model->listed_count; i < model->coupled_count; i++) {
-        model->bodies[model->loads[i].body].arrow_count++;
-        if (model->loads[i].partner >= 0) model->bodies[model->loads[i].partner].arrow_count++;
-    }
-    return !model->arena.failed;
 }

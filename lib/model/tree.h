@@ -76,19 +76,21 @@ struct tree_following {
     double moment;
 };
 
-/* A force whose size or direction varies. */
+/* A force whose size or direction varies, or that begins or ends. */
 struct tree_force {
     int link;
     struct vec point;
     double turn;     /* the angle of its body in the link when it turns with the body, else 0 */
     bool body_frame; /* it turns with the body */
+    int lifetime;    /* its number (scene/loads.h), or 0; likewise below */
     struct formula value, angle;
     struct vec direction; /* for a constant angle: in the world, or in the link when it turns with it */
 };
 
-/* A moment that varies; the opposite acts on `partner`, 0 for none. */
+/* A moment that varies, begins or ends; the opposite acts on `partner`, 0 for none. */
 struct tree_moment {
     int link, partner;
+    int lifetime;
     struct formula value;
 };
 
@@ -96,6 +98,7 @@ struct tree_moment {
  * `guided`, it acts at the first point, in direction `along` of the second link. */
 struct tree_spring {
     int link[2];
+    int lifetime;
     struct vec point[2];
     double stiffness, free_length, damping;
     bool actuated, guided;
@@ -105,6 +108,7 @@ struct tree_spring {
 
 struct tree_drag {
     int link;
+    int lifetime;
     struct vec point;
     double linear, quadratic;
 };
@@ -165,7 +169,7 @@ struct tree {
     int coupling_count, row_count;  /* see coupling.h */
     struct coupling *couplings;
     int plane_count;   /* those of them that are friction on a plane */
-    bool ends;         /* some of them begin or end during a run */
+    bool ends;         /* a coupling or load begins or ends during a run */
     bool reacts;       /* events name the forces of pivots */
     int meeting_count; /* see contact.h */
     struct meeting *meetings;

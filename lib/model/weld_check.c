@@ -21,7 +21,7 @@ static int bearer(const struct fbd_model *model, int b)
 
 static bool is_always(const struct constraint *source)
 {
-    return source->kind == constraint_weld && !source->begins && !source->ends;
+    return source->kind == constraint_weld && source->lifetime.number == 0;
 }
 
 /* The weld before it in the file that joins the same bodies always, or NULL. */

@@ -9,7 +9,7 @@
 
 #include "note/note.h"
 
-enum { free_steps = 20000, steps_per_step = 100, kinds = FBD_EVENT_COUPLING_BEGINS + 1 };
+enum { free_steps = 20000, steps_per_step = 100, kinds = FBD_EVENT_FORCE_BEGINS + 1 };
 
 static const double tightening = 100, least_tolerance = 1e-13;
 

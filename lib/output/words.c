@@ -31,6 +31,8 @@ const char *fbd_event_kind_name(fbd_event_kind kind)
     case FBD_EVENT_TRACK_END: return "track_end";
     case FBD_EVENT_COUPLING_ENDS: return "coupling_ends";
     case FBD_EVENT_COUPLING_BEGINS: return "coupling_begins";
+    case FBD_EVENT_FORCE_ENDS: return "force_ends";
+    case FBD_EVENT_FORCE_BEGINS: return "force_begins";
     }
     return "";
 }
@@ -137,6 +139,19 @@ static void sliding_detail(const struct fbd_model *model, const struct run_event
         format_into(detail, size, "%s slides on its switch", name);
 }
 
+/* With the energy that the bodies have in it, if it has a potential. */
+static void force_detail(const struct fbd_model *model, const struct run_event *event, const char *name,
+                         char *detail, size_t size)
+{
+    const bool begins = event->kind == FBD_EVENT_FORCE_BEGINS;
+    const char *when = model->plan.watches[event->watch].source->text;
+    if (model->loads[event->load].potential_kind == potential_none)
+        format_into(detail, size, "%s %s: %s", name, begins ? "begins" : "ends", when);
+    else
+        format_into(detail, size, "%s %s: %s; it %s %.6g %s", name, begins ? "begins" : "ends", when,
+                    begins ? "brings" : "takes", event->force, energy_unit(model));
+}
+
 static void several_detail(const struct run_event *event, const char *name, const char *unit, char *detail,
                            size_t size)
 {
@@ -217,6 +232,8 @@ void event_detail(const struct fbd_model *model, const struct run_event *event, 
         format_into(detail, size, "%s begins: %s; the impact takes %.6g %s", name,
                     model->plan.watches[event->watch].source->text, event->force, energy_unit(model));
         return;
+    case FBD_EVENT_FORCE_ENDS:
+    case FBD_EVENT_FORCE_BEGINS: force_detail(model, event, name, detail, size); return;
     }
 }
 

@@ -30,6 +30,12 @@ static void count_works(struct ledger *ledger)
     }
 }
 
+/* Are there works of a load that do not follow from its potential? As a spring breaks, its energy is lost. */
+static bool has_works(const struct ledger *ledger, size_t load)
+{
+    return ledger->counted[load] || ledger->model->loads[load].source->lifetime.number > 0;
+}
+
 bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fbd_state *start, bool works)
 {
     size_t loads = model->load_count;
@@ -54,8 +60,8 @@ bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fb
     count_works(ledger);
     for (size_t i = 0; i < loads; i++) {
         const struct model_load *load = &model->loads[i];
-        ledger->any |= works && ledger->counted[i];
-        if (!works && ledger->counted[i]) ledger->work[i] = NAN;
+        ledger->any |= works && has_works(ledger, i);
+        if (!works && has_works(ledger, i)) ledger->work[i] = NAN;
         ledger->initial_potential[i] = potential_energy(model, load, &at, ledger->scratch);
         ledger->initial_sum += ledger->initial_potential[i];
     }
@@ -78,7 +84,7 @@ bool ledger_integrates(const struct ledger *ledger, const struct group *group)
 bool ledger_counts(const struct ledger *ledger, const struct group *group)
 {
     for (size_t i = 0; i < group->model->load_count; i++)
-        if (ledger->counted[group_load(group, (int)i)]) return true;
+        if (has_works(ledger, (size_t)group_load(group, (int)i))) return true;
     return false;
 }
 
@@ -105,7 +111,7 @@ bool ledger_step(struct ledger *ledger, struct ensemble *ensemble, size_t index)
     ledger->through[first] = sums.turnover;
     for (size_t i = 0; i < model->load_count; i++) {
         int load = group_load(group, (int)i);
-        if (!ledger->counted[load]) continue;
+        if (!has_works(ledger, (size_t)load)) continue;
         ledger->end[load] += run->impact_work[i] - ledger->struck[load];
         ledger->struck[load] = run->impact_work[i];
     }
@@ -177,7 +183,8 @@ double ledger_work(struct ledger *ledger, const struct fbd_state *state, size_t 
     const struct model_load *load = &ledger->model->loads[index];
     if (ledger->counted[index]) return work[index];
     struct instant at = state_instant(state);
-    return ledger->initial_potential[index] - potential_energy(ledger->model, load, &at, ledger->scratch);
+    const double V = potential_energy(ledger->model, load, &at, ledger->scratch);
+    return ledger->initial_potential[index] - V + (has_works(ledger, index) ? work[index] : 0);
 }
 
 fbd_energy ledger_energy(struct ledger *ledger, const struct fbd_state *state, const double *work)
@@ -190,10 +197,8 @@ fbd_energy ledger_energy(struct ledger *ledger, const struct fbd_state *state, c
     /* Differences load by load: a distant datum does not lose the change in rounding. */
     double change = 0;
     for (size_t i = 0; i < model->load_count; i++) {
-        if (ledger->counted[i]) {
-            energy.work += work[i];
-            continue;
-        }
+        if (has_works(ledger, i)) energy.work += work[i];
+        if (ledger->counted[i]) continue;
         double potential = potential_energy(model, &model->loads[i], &at, ledger->scratch);
         energy.potential += potential;
         change += potential - ledger->initial_potential[i];

@@ -20,10 +20,10 @@ struct coupling_keys {
     const struct node *between, *through, *radii, *body, *on, *center, *wound, *around;
     const struct node *x, *y, *from, *to; /* slot */
     const struct node *at, *support;      /* plane friction */
-    const struct node *since, *until;     /* conditions at which a constraint begins and ends */
+    const struct node *since, *until;     /* conditions at which it begins and ends */
     const struct node *force;             /* actuator */
     const struct node *terms;             /* ratio: the mapping itself */
-    double stiffness, free_length, coefficient, length, radius, tension, along;
+    double stiffness, free_length, coefficient, length, radius, tension, along, efficiency;
     bool inside, crossed, closed;
     struct value mu_s, mu_k, restitution, reel, moment, surface_speed, resistance, normal;
     int law, side; /* enum impact_law, enum contact_side */
@@ -39,7 +39,8 @@ enum constraint_kind {
     constraint_rack,  /* a circle rolls on a line of a body without slip */
     constraint_ratio, /* a linear relation of coordinates */
     constraint_roll,  /* a circle on a line of the ground or of a body */
-    constraint_resistance, /* the rolling resistance of the roll before it: a moment between both bodies */
+    constraint_resistance, /* the rolling resistance of the roll before it: a moment between both bodies; or the
+                            * friction of the gear before it: between its first wheel and the body that carries it */
     constraint_slot,       /* a point on a line or curve of a body */
     constraint_groove,     /* the same with friction */
     constraint_belt,       /* a belt round two discs */
@@ -109,9 +110,7 @@ struct constraint {
     double share;               /* plane friction: of that force */
     struct value surface_speed; /* roll, contact: of the skin of end 1, over t alone; expr NULL at rest */
     struct contact_law contact; /* point_absent: the whole body */
-    const struct node *since,
-        *until;        /* the conditions at which it begins and ends, while the file is read; or NULL */
-    bool begins, ends; /* it has them: events of the scene have its index (struct user_event) */
+    struct lifetime lifetime;
 };
 
 /* The properties of a kind. */
@@ -148,7 +147,7 @@ extern const struct constraint_law constraint_laws[constraint_kinds];
 static inline bool constraint_has_load(const struct constraint *constraint)
 {
     const struct constraint_law *law = &constraint_laws[constraint->kind];
-    if (constraint->begins) return true; /* for the work of its impact */
+    if (constraint->lifetime.begins) return true; /* for the work of its impact */
     return law->load == always_load || (law->load == load_if_it_presses && constraint->presses != 0);
 }
 

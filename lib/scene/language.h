@@ -224,6 +224,7 @@ struct load_keys {
     struct load load;
     const char *name;
     const struct node *value, *at, *from, *to, *toward, *wind, *velocity;
+    const struct node *since, *until; /* conditions at which it begins and ends */
     double neutral, radius;
     struct value coefficient, factor, exhaust, bearing;
     int side, frame;

@@ -30,10 +30,6 @@ static const struct group beginning = {"a coupling", NULL, FIELDS(since_fields),
     FIELD_ENTRIES(COUPLING(between), "between", field_list, required, each_word, NULL,                       \
                   "its two ends: body.point, ground.point or, for the centre of mass, a body")
 
-#define COUPLING_GROUP(title, table, doc)                                                                    \
-    {                                                                                                        \
-        title, NULL, FIELDS(table), &named, 0, doc                                                           \
-    }
 #define CONSTRAINT_GROUP(title, table, doc)                                                                  \
     {                                                                                                        \
         title, NULL, FIELDS(table), &ending, 0, doc                                                          \
@@ -51,7 +47,7 @@ static const struct field spring_fields[] = {
                  "length without force; default 0"),
 };
 static const struct group spring_group =
-    COUPLING_GROUP("a spring", spring_fields, "a linear spring between two points");
+    BEGINNING_GROUP("a spring", spring_fields, "a linear spring between two points");
 
 static const struct field damper_fields[] = {
     BETWEEN_ROW,
@@ -59,7 +55,7 @@ static const struct field damper_fields[] = {
                  "force per velocity"),
 };
 static const struct group damper_group =
-    COUPLING_GROUP("a damper", damper_fields, "a linear damper between two points");
+    BEGINNING_GROUP("a damper", damper_fields, "a linear damper between two points");
 
 static const struct field actuator_fields[] = {
     FIELD_ENTRIES(
@@ -75,8 +71,8 @@ static const struct field actuator_fields[] = {
                  "the line of the points"),
 };
 static const struct group actuator_group =
-    COUPLING_GROUP("an actuator", actuator_fields,
-                   "a motor or cylinder: a given moment or force between two bodies");
+    BEGINNING_GROUP("an actuator", actuator_fields,
+                    "a motor or cylinder: a given moment or force between two bodies");
 
 static const struct law actuator_law = {.effect = "actuator",
                                         .written_as_c = true,
@@ -105,6 +101,8 @@ static const struct field gear_fields[] = {
     FIELD_ENTRIES(COUPLING(radii), "radii", field_list, 0, each_number, NULL,
                   "their pitch radii; default those of their shapes"),
     FIELD_FLAG(COUPLING(inside), "inside", "true: the first turns inside the second, a ring"),
+    FIELD_NUMBER(COUPLING(efficiency), "efficiency", a_number, positive,
+                 "power at the second over that of the first while the first drives, at most 1; default 1"),
 };
 static const struct group gear_group =
     BEGINNING_GROUP("a gear", gear_fields, "two pitch circles that roll on each other without slip");
@@ -314,7 +312,8 @@ const struct constraint_law constraint_laws[constraint_kinds] = {
         .load = always_load, .load_kind = load_normal, .load_name = ".friction"},
     [constraint_resistance] = {
         .drawing = "roll", .letters = {"M"},
-        .words = "rolling resistance: a moment against rolling, at most its arm times the normal force",
+        .words = "rolling resistance: a moment against rolling, at most its arm times the normal force; or friction of a "
+                 "gear: at most its arm times the force of the teeth",
         .not_as_c = "rolling is a constraint beside the joints",
         .rows = 1,
         .load = always_load, .load_kind = load_normal},

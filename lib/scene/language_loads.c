@@ -26,9 +26,23 @@ static const struct field name_fields[] = {
 };
 static const struct group named = {"a load", NULL, FIELDS(name_fields), NULL, 0, "anything with a name"};
 
+/* The keys of a load that need not be there all the time. */
+static const struct field lifetime_fields[] = {
+    FIELD_NODE(offsetof(struct load_keys, since), "from", field_scalar, 0, NULL,
+               "the condition at which it begins, as `t > 2 s`; default from the start"),
+    FIELD_NODE(offsetof(struct load_keys, until), "until", field_scalar, 0, NULL,
+               "the condition at which it ends, as `tension > 500 N` or `t > 2 s`; default never"),
+};
+static const struct group passing = {"a load", NULL, FIELDS(lifetime_fields),
+                                     &named,   0,    "which may begin and end"};
+
 #define LOAD_GROUP(title, brief, table, doc)                                                                 \
     {                                                                                                        \
         title, brief, FIELDS(table), &named, 0, doc                                                          \
+    }
+#define PASSING_GROUP(title, brief, table, doc)                                                              \
+    {                                                                                                        \
+        title, brief, FIELDS(table), &passing, 0, doc                                                        \
     }
 #define BARE_GROUP(title, doc)                                                                               \
     {                                                                                                        \
@@ -99,7 +113,7 @@ static const struct field applied_fields[] = {
     CONSERVATIVE_ROW,
 };
 static const struct group applied_group =
-    LOAD_GROUP("an applied force", "value", applied_fields, "a given force");
+    PASSING_GROUP("an applied force", "value", applied_fields, "a given force");
 
 static const struct field distributed_fields[] = {
     FIELD_NODE(offsetof(struct load_keys, from), "from", field_any, required, NULL,
@@ -128,8 +142,8 @@ static const struct field spring_fields[] = {
     TO_ROW,
 };
 static const struct group spring_group =
-    LOAD_GROUP("a spring", "stiffness", spring_fields,
-               "a linear spring to a point of the ground, or along a slide");
+    PASSING_GROUP("a spring", "stiffness", spring_fields,
+                  "a linear spring to a point of the ground, or along a slide");
 
 static const struct field damper_fields[] = {
     FIELD_NUMBER(LOAD(coefficient), "coefficient", a_damping, required | not_negative | stored,
@@ -138,8 +152,8 @@ static const struct field damper_fields[] = {
     TO_ROW,
 };
 static const struct group damper_group =
-    LOAD_GROUP("a damper", "coefficient", damper_fields,
-               "a linear damper to a point of the ground, or along a slide");
+    PASSING_GROUP("a damper", "coefficient", damper_fields,
+                  "a linear damper to a point of the ground, or along a slide");
 
 static const struct field drag_fields[] = {
     FIELD_NUMBER(LOAD(linear), "linear", a_damping, not_negative | stored, "force per velocity"),
@@ -150,7 +164,7 @@ static const struct field drag_fields[] = {
     AT_ROW,
 };
 static const struct group drag_group =
-    LOAD_GROUP("`drag`", NULL, drag_fields, "resistance against the velocity of a point through the air");
+    PASSING_GROUP("`drag`", NULL, drag_fields, "resistance against the velocity of a point through the air");
 
 static const struct field thrust_fields[] = {
     FIELD_VALUE(offsetof(struct load_keys, exhaust), "exhaust", a_velocity, 0,
@@ -163,7 +177,7 @@ static const struct field thrust_fields[] = {
                "slide of the ground along +x"),
     AT_ROW,
 };
-static const struct group thrust_group = LOAD_GROUP(
+static const struct group thrust_group = PASSING_GROUP(
     "`thrust`", NULL, thrust_fields,
     "the thrust of mass that leaves or comes with a relative velocity, for a body of varying mass");
 
@@ -172,7 +186,8 @@ static const struct field power_fields[] = {
                 "above zero: in the direction of the motion"),
 };
 static const struct group power_group =
-    LOAD_GROUP("`power`", "value", power_fields, "a drive of given power: the force P/v, the moment P/omega");
+    PASSING_GROUP("`power`", "value", power_fields,
+                  "a drive of given power: the force P/v, the moment P/omega");
 
 /* f v = P, M omega = P: the formula divides by the rate, and the force is infinite where that is zero. The
  * rate has to be the velocity in the world, so that P is the power on the body. */
@@ -289,7 +304,7 @@ static const struct field moment_applied_fields[] = {
     CONSERVATIVE_ROW,
 };
 static const struct group moment_applied_group =
-    LOAD_GROUP("an applied moment", "value", moment_applied_fields, "a given moment");
+    PASSING_GROUP("an applied moment", "value", moment_applied_fields, "a given moment");
 
 /* Warn of a moment on a body that moves on another one, which is rarely meant to come from outside. */
 static bool moment_applied_finish(struct entry *entry)
@@ -317,16 +332,16 @@ static const struct field moment_spring_fields[] = {
                  "angle without moment; default 0"),
 };
 static const struct group moment_spring_group =
-    LOAD_GROUP("a torsional spring", "stiffness", moment_spring_fields,
-               "a linear torsional spring to the ground");
+    PASSING_GROUP("a torsional spring", "stiffness", moment_spring_fields,
+                  "a linear torsional spring to the ground");
 
 static const struct field moment_damper_fields[] = {
     FIELD_NUMBER(LOAD(coefficient), "coefficient", a_torsional_damping, required | not_negative | stored,
                  "moment per angular velocity"),
 };
 static const struct group moment_damper_group =
-    LOAD_GROUP("a torsional damper", "coefficient", moment_damper_fields,
-               "a linear torsional damper to the ground");
+    PASSING_GROUP("a torsional damper", "coefficient", moment_damper_fields,
+                  "a linear torsional damper to the ground");
 
 static const struct field moment_friction_fields[] = {
     FIELD_VALUE(LOAD(mu_s), "static", a_moment, not_negative | slips_not | stored,

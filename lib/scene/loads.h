@@ -101,6 +101,16 @@ struct motion {
 
 /* ---- loads */
 
+struct node;
+
+/* The begin and the end of a force, moment or constraint during a run. A constraint and its rolling resistance, and a
+ * force and its reaction on another body, have the same number. */
+struct lifetime {
+    int number;                       /* from 1 on (struct scene: lifetime_count); 0: it is always there */
+    const struct node *since, *until; /* its conditions, while the file is read; NULL without them */
+    bool begins, ends; /* it has them: events of the scene have its number (struct user_event) */
+};
+
 enum load_kind {
     load_gravity,
     load_normal,
@@ -186,6 +196,8 @@ struct load {
         surface_speed; /* velocity of the surface along +x (moment: angular velocity of the bearing) */
 
     struct value potential; /* V as a function of the body's coordinates (and t) */
+
+    struct lifetime lifetime;
 
     enum normal_side {
         side_up,

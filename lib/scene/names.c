@@ -96,7 +96,7 @@ static struct symbol other_symbol(const struct names *names, const char *name)
 {
     if (names->place == place_load || names->place == place_exact) return load_symbol(names, name);
     if (names->place == place_hand) return hand_symbol(names, name);
-    if (names->of) return own_reaction_symbol(names, name);
+    if (names->of || names->of_coupling || names->of_load) return own_reaction_symbol(names, name);
     if (names->place == place_contact && strcmp(name, "approach") == 0)
         return slot_symbol(DIM_VELOCITY, 1 + scene_size(names->reader->scene) + hand_acceleration);
     return unknown;

@@ -54,7 +54,10 @@ struct names {
     enum hand_sense sense;       /* in a derivation: the time of its names */
     enum absolute_kind of_force; /* meaning of the name of a force: absolute_force, or its work or impulse */
     const char *curve;           /* the parameter of a curve, for hints; NULL elsewhere */
-    const struct constraint *of; /* in its `until`: its reactions need no prefix; or NULL */
+    /* In the `until` of one of these its reactions need no prefix; or NULL. */
+    const struct constraint *of;
+    const struct force_coupling *of_coupling;
+    const struct load *of_load; /* of the body */
     bool distance_known,
         distance_named; /* `distance` is allowed (in the size of a force toward a point); it was looked up */
     const char **known;
@@ -97,7 +100,7 @@ struct symbol reaction_symbol(const struct names *names, const char *name, struc
 /* `arm.pin.x`, `block.normal` of the joint of a body, given the name behind the body. */
 struct symbol joint_reaction_symbol(const struct names *names, int body, const char *name, struct pos at);
 
-/* `tension` in the `until` of a coupling. */
+/* `tension` in the `until` of a coupling or force. */
 struct symbol own_reaction_symbol(const struct names *names, const char *name);
 
 /* ---- names of derivations (names_force.c) */

@@ -159,11 +159,40 @@ struct symbol reaction_symbol(const struct names *names, const char *name, struc
     return unknown;
 }
 
+/* The reactions of a spring or damper in the list of a body: with another end its force and tension (x and y are those of
+ * the body); along or about the coordinate of the body the size of its force or moment. */
+static bool load_has_part(const struct load *load, enum reaction_part part)
+{
+    switch (load->kind) {
+    case load_spring:
+    case load_damper:
+        return part == reaction_force || (part == reaction_tension && load->anchor.kind != point_absent);
+    case moment_spring:
+    case moment_damper: return part == reaction_moment;
+    default: return false; /* their size is given */
+    }
+}
+
 struct symbol own_reaction_symbol(const struct names *names, const char *name)
 {
     const int part = part_called(name);
-    if (part < 0 || !has_part(names->of, (enum reaction_part)part)) return unknown;
-    return of_constraint(names, names->of, part);
+    if (part < 0) return unknown;
+    if (names->of) {
+        if (!has_part(names->of, (enum reaction_part)part)) return unknown;
+        return of_constraint(names, names->of, part);
+    }
+    if (names->of_coupling) {
+        const struct load *load = &names->of_coupling->load;
+        if (load->kind == moment_applied || load->guided || part > reaction_tension) return unknown;
+        return of_spring(names, names->of_coupling, part);
+    }
+    if (!load_has_part(names->of_load, (enum reaction_part)part)) return unknown;
+    const struct absolute reaction = {.body = names->body,
+                                      .point = {.kind = point_fixed},
+                                      .kind = absolute_reaction,
+                                      .part = part,
+                                      .force = names->of_load->name};
+    return names_absolute(names->reader, names->place, &reaction);
 }
 
 /* ---- joints */

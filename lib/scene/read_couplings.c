@@ -47,7 +47,45 @@ static void add_resistance(struct scene *scene, const struct coupling_keys *keys
     own->kind = constraint_resistance;
     own->mu_s = own->mu_k = keys->resistance;
     own->surface_speed = (struct value){0};
-    own->ends = false;
+}
+
+/* The friction of a gear of efficiency eta is a moment on its first wheel of at most (1/eta - 1) r |F|, with the force F
+ * of the teeth: while that wheel drives, its moment is F r/eta, of which F r passes; while the second one drives,
+ * (2 - 1/eta) F r remains, and nothing where eta is below 1/2, as in a worm gear. */
+static bool add_gear_friction(struct reader *reader, const struct chosen *chosen,
+                              const struct coupling_keys *keys)
+{
+    struct scene *scene = reader->scene;
+    const struct pair *given = node_find(chosen->node, "efficiency");
+    if (chosen->kind->value != coupling_constraint + constraint_gear || !given || keys->efficiency == 1)
+        return true;
+    if (!fields_exclude(reader, chosen->node, "efficiency", "from",
+                        "its friction would take its share of the impact at the begin"))
+        return false;
+    const struct constraint *gear = &scene->constraints[scene->constraint_count - 1];
+    const struct motion *motion = &scene->bodies[gear->body[0]].motion;
+    if (keys->efficiency > 1) {
+        diag_add(reader->errors, FBD_ERROR, "out-of-range", given->value->at, "0.95 loses 5 % of the power",
+                 "`efficiency` must be at most 1");
+        return false;
+    }
+    if (!motion_joint(motion)->has_axis) {
+        diag_add(reader->errors, FBD_ERROR, "not-here", given->at,
+                 "let the first of `between` be a body on a pivot, in whose bearing the moment of the "
+                 "friction acts",
+                 "the first wheel of a gear with `efficiency` turns on a `pivot`");
+        return false;
+    }
+    struct constraint *own = &scene->constraints[scene->constraint_count++];
+    *own = *gear;
+    own->kind = constraint_resistance;
+    own->body[1] = motion->parent;
+    own->point[1] = (struct point){.kind = point_fixed, .at = own->at};
+    own->radius[0] = fabs(gear->radius[0]);
+    own->radius[1] = 0;
+    own->mu_s.expr = own->mu_k.expr =
+        expr_constant(reader->arena, (1 / keys->efficiency - 1) * own->radius[0], DIM_LENGTH);
+    return own->mu_s.expr != NULL;
 }
 
 static bool read_constraint(struct reader *reader, const struct chosen *chosen,
@@ -57,10 +95,7 @@ static bool read_constraint(struct reader *reader, const struct chosen *chosen,
     constraint->at = chosen->at;
     constraint->length = keys->length;
     constraint->length_given = keys->length > 0;
-    constraint->until = keys->until;
-    constraint->since = keys->since;
-    constraint->ends = keys->until != NULL;
-    constraint->begins = keys->since != NULL;
+    constraint->lifetime = lifetime_of(reader, keys->since, keys->until);
     if (!constraint_laws[constraint->kind].read(reader, keys, constraint)) return false;
     place_slips(reader, constraint);
     const struct node *when = keys->until ? keys->until : keys->since;
@@ -118,7 +153,7 @@ static bool read_coupling(struct reader *reader, const struct node *node, bool c
         name->body[0] = constraint->body[0];
         name->body[1] = constraint->body[constraint->end_count - 1];
         add_resistance(scene, &keys);
-        return true;
+        return add_gear_friction(reader, &chosen, &keys);
     }
     struct force_coupling *coupling = &scene->force_couplings[scene->force_coupling_count++];
     coupling->load = (struct load){.kind = (enum load_kind)chosen.kind->value,
@@ -127,6 +162,7 @@ static bool read_coupling(struct reader *reader, const struct node *node, bool c
                                    .free_length = keys.free_length,
                                    .coefficient = keys.coefficient};
     coupling->load.law = chosen.kind->law;
+    coupling->load.lifetime = lifetime_of(reader, keys.since, keys.until);
     fine = (chosen.kind->law ? actuator_read(reader, &chosen, &names, &keys, coupling)
                              : read_between(reader, keys.between, coupling)) &&
            fine;
@@ -143,14 +179,16 @@ static bool read_list(struct reader *reader, const struct node *list, bool conta
     return fine;
 }
 
-/* The name of a constraint; that of its rolling resistance follows from it. Returns the next constraint. */
+/* The name of a constraint; that of its rolling resistance, or friction, follows from it. Returns the next constraint. */
 static size_t name_constraint(struct reader *reader, size_t index, const char *name)
 {
     struct scene *scene = reader->scene;
     scene->constraints[index++].name = name;
     if (index == scene->constraint_count || scene->constraints[index].kind != constraint_resistance)
         return index;
-    scene->constraints[index].name = arena_printf(reader->arena, "%s.resistance", name);
+    const bool gear = scene->constraints[index - 1].kind == constraint_gear;
+    scene->constraints[index].name =
+        arena_printf(reader->arena, "%s.%s", name, gear ? "friction" : "resistance");
     return index + 1;
 }
 

@@ -29,6 +29,7 @@ static bool read_entry(struct entry *entry, const struct kinds *kinds, const str
                             &entry->scope, &entry->keys);
     bool keyed = !entry->chosen.node || entry->chosen.node->kind == node_map;
     if (!fine && !keyed) return false;
+    load->lifetime = lifetime_of(reader, entry->keys.since, entry->keys.until);
     if (entry->keys.at && !entry_place_read(entry)) fine = false;
     return (!load->law->finish || load->law->finish(entry)) && fine;
 }

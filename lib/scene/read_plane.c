@@ -72,7 +72,7 @@ bool plane_read(struct reader *reader, const struct coupling_keys *keys, struct 
         return false;
     if (!keys->mu_k.expr)
         return refuse(reader, constraint->at, "missing-key", "`plane_friction` needs a coefficient",
-                      "write `kinetic: 0.3`, and `static` if that is another one");
+                      "add `kinetic: 0.3`, and `static` if that is another one");
     return read_plane(reader, keys->on, constraint) && is_only(reader, constraint) &&
            has_normal(reader, constraint);
 }

@@ -15,6 +15,9 @@ static struct load reaction_of(struct reader *reader, const struct body *body, c
                          .point = load->end,
                          .toward = body->name,
                          .target = ground_body,
+                         .lifetime = {.number = load->lifetime.number,
+                                      .begins = load->lifetime.begins,
+                                      .ends = load->lifetime.ends},
                          .reaction = true};
 }
 

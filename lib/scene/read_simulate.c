@@ -25,21 +25,18 @@ static bool read_direction(struct reader *reader, const struct node *node, char 
     return false;
 }
 
-/* A condition in the key `key`; `of`: the reactions of this constraint need no prefix in it; or NULL. */
+/* A condition in the key `key`; `names`: those that need no prefix in it. */
 struct condition {
     const struct node *node;
     const char *key, *hint;
-    const struct constraint *of;
+    struct names names;
 };
 
 static bool read_condition(struct reader *reader, const struct condition *condition, char *relation,
                            struct user_event *event)
 {
     const struct node *node = condition->node;
-    struct names names = {.reader = reader,
-                          .place = place_event,
-                          .body = reader->scene->body_count == 1 ? 0 : ground_body,
-                          .of = condition->of};
+    struct names names = condition->names;
     struct scope scope = names_scope(&names);
     const struct expr_want want = {.any_dim = true, .what = condition->key};
     event->at = node->at;
@@ -48,37 +45,50 @@ static bool read_condition(struct reader *reader, const struct condition *condit
     return value_relation(reader, node, &want, &scope, &event->left, relation, &event->right);
 }
 
+static struct names names_of_events(struct reader *reader)
+{
+    return (struct names){.reader = reader,
+                          .place = place_event,
+                          .body = reader->scene->body_count == 1 ? 0 : ground_body};
+}
+
 static bool read_when(struct reader *reader, const struct node *when, char *relation,
                       struct user_event *event)
 {
-    return read_condition(reader, &(struct condition){when, "when", "write for example `x = 2[m]`", NULL},
-                          relation, event);
+    const struct condition condition = {when, "when", "write for example `x = 2[m]`",
+                                        names_of_events(reader)};
+    return read_condition(reader, &condition, relation, event);
 }
 
-/* ---- the begin and the end of couplings */
+/* ---- the begin and the end of forces and couplings */
 
-static size_t count_endings(const struct scene *scene)
+struct lifetime lifetime_of(struct reader *reader, const struct node *since, const struct node *until)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < scene->constraint_count; i++)
-        count += (size_t)scene->constraints[i].begins + (size_t)scene->constraints[i].ends;
-    return count;
+    if (!since && !until) return (struct lifetime){0};
+    return (struct lifetime){.number = ++reader->scene->lifetime_count,
+                             .since = since,
+                             .until = until,
+                             .begins = since != NULL,
+                             .ends = until != NULL};
 }
 
-/* The condition in the key `from` or `until`. */
-static bool read_ending(struct reader *reader, const struct constraint *constraint, bool begins,
-                        struct user_event *event)
+/* The condition in the key `from` or `until` of the force or constraint called `name`. */
+static bool read_ending(struct reader *reader, const struct lifetime *lifetime, bool begins, const char *name,
+                        const struct names *names)
 {
-    const struct condition condition = {.node = begins ? constraint->since : constraint->until,
-                                        .key = begins ? "from" : "until",
-                                        .hint = begins ? "write for example `t > 2 s`"
-                                                       : "write for example `force > 500 N` or `t > 2 s`",
-                                        .of = begins ? NULL : constraint};
-    const int index = 1 + (int)(constraint - reader->scene->constraints);
+    struct condition condition = {.node = begins ? lifetime->since : lifetime->until,
+                                  .key = begins ? "from" : "until",
+                                  .hint = begins ? "write for example `t > 2 s`"
+                                                 : "write for example `force > 500 N` or `t > 2 s`",
+                                  .names = *names};
+    struct user_event *event = &reader->scene->events[reader->scene->event_count++];
     char relation = 0;
-    *event = (struct user_event){.name = constraint->name,
-                                 .begins = begins ? index : 0,
-                                 .ends = begins ? 0 : index};
+    *event = (struct user_event){.name = name, .lifetime = lifetime->number, .begins = begins};
+    if (begins) { /* it has no reactions before */
+        condition.names.of = NULL;
+        condition.names.of_coupling = NULL;
+        condition.names.of_load = NULL;
+    }
     if (!read_condition(reader, &condition, &relation, event)) return false;
     event->direction = relation == '<' ? -1 : 1;
     if (relation == '<' || relation == '>') return true;
@@ -87,18 +97,41 @@ static bool read_ending(struct reader *reader, const struct constraint *constrai
     return false;
 }
 
-/* Append them to the events, which have room for them. */
+static bool read_both(struct reader *reader, const struct lifetime *lifetime, const char *name,
+                      const struct names *names)
+{
+    bool fine = true;
+    if (lifetime->since) fine = read_ending(reader, lifetime, true, name, names);
+    if (lifetime->until) fine = read_ending(reader, lifetime, false, name, names) && fine;
+    return fine;
+}
+
+/* Append them to the events, which have room for two of each lifetime. Those of rolling resistance are its roll's. */
 static bool read_endings(struct reader *reader)
 {
-    struct scene *scene = reader->scene;
+    const struct scene *scene = reader->scene;
     bool fine = true;
     for (size_t i = 0; i < scene->constraint_count; i++) {
         const struct constraint *constraint = &scene->constraints[i];
-        if (constraint->begins)
-            fine = read_ending(reader, constraint, true, &scene->events[scene->event_count++]) && fine;
-        if (constraint->ends)
-            fine = read_ending(reader, constraint, false, &scene->events[scene->event_count++]) && fine;
+        struct names names = names_of_events(reader);
+        names.of = constraint;
+        if (constraint->kind != constraint_resistance)
+            fine = read_both(reader, &constraint->lifetime, constraint->name, &names) && fine;
     }
+    for (size_t i = 0; i < scene->force_coupling_count; i++) {
+        const struct force_coupling *coupling = &scene->force_couplings[i];
+        struct names names = names_of_events(reader);
+        names.of_coupling = coupling;
+        fine = read_both(reader, &coupling->load.lifetime, coupling->load.name, &names) && fine;
+    }
+    for (size_t b = 0; b < scene->body_count; b++)
+        for (size_t i = 0; i < scene->bodies[b].load_count; i++) {
+            const struct load *load = &scene->bodies[b].loads[i];
+            struct names names = names_of_events(reader);
+            names.body = (int)b;
+            names.of_load = load;
+            fine = read_both(reader, &load->lifetime, load->name, &names) && fine;
+        }
     return fine;
 }
 
@@ -153,7 +186,7 @@ static bool read_events(struct reader *reader, const struct node *node)
     enum { most_events = 1000 };
     struct scene *scene = reader->scene;
     bool list = node && node->kind == node_list, fine = true;
-    size_t count = list ? node->count : node != NULL, endings = count_endings(scene);
+    size_t count = list ? node->count : node != NULL, endings = 2 * (size_t)scene->lifetime_count;
     if (count > most_events) {
         diag_add(reader->errors, FBD_ERROR, "too-many-events", node->at, NULL, "more than %d events",
                  most_events);

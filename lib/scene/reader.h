@@ -315,6 +315,9 @@ bool stops_read(struct reader *reader, struct coupling_name *names);
 
 bool simulate_read(struct reader *reader, const struct scene_keys *keys);
 
+/* The lifetime with these conditions, which may be NULL: numbered in the scene. */
+struct lifetime lifetime_of(struct reader *reader, const struct node *since, const struct node *until);
+
 /* ---- grading (read_grading.c) */
 
 bool grading_read(struct reader *reader, const struct node *node);

@@ -218,7 +218,8 @@ struct user_event {
     const struct expr *left, *right; /* crosses where left - right = 0; right may be NULL */
     int direction;                   /* +1 rising, -1 falling, 0 both */
     bool stop;
-    int begins, ends; /* 1 + index of the constraint that begins or ends there; 0 of other events */
+    int lifetime; /* the number of the lifetime (loads.h) that begins or ends there; 0 of other events */
+    bool begins;  /* then: it begins */
 };
 
 /* A point whose position, velocity and acceleration in the world are output. */
@@ -260,7 +261,8 @@ struct scene {
     size_t coordinate_count, absolute_count;
     struct coordinate *coordinates;
     struct absolute *absolutes;
-    size_t own_count; /* of `states` */
+    int lifetime_count; /* forces and constraints that begin or end */
+    size_t own_count;   /* of `states` */
     struct own_state *own;
 };
 

@@ -73,6 +73,7 @@ static const struct {
     {"motion_slide", "line+along line+through line+on"},
     {"force_applied", "value+fx value+fy toward+fx toward+fy toward+angle toward+frame"},
     {"coupling_actuator", "moment+force moment+along"},
+    {"coupling_gear", "efficiency+from"},
     {"force_thrust", "exhaust+velocity velocity+angle velocity+frame"},
     {"force_friction", "coefficient+static coefficient+kinetic"},
     {"moment_friction", "coefficient+static coefficient+kinetic bearing+static bearing+kinetic "

@@ -135,6 +135,8 @@ def missing(name, text):
     new = re.search(r"^(states|inputs):|\b(track|distributed|thrust): ", text, re.MULTILINE)
     if new:
         return new[1] or new[2]
+    if re.search(r"{.*\b(from|until): [^,}]*[<>]", re.split(r"\n(?:couplings|simulate):", text)[0]):
+        return "begins or ends"
     if re.search(r"\bfriction: {.*\bbearing: ", text):
         return "friction that depends on the reaction"
     couplings = text.partition("\ncouplings:")[2].partition("\nsimulate:")[0].partition("\ncontacts:")[0]

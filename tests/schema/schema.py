@@ -35,6 +35,7 @@ BEYOND = {
     "actuator_from_the_ground.yaml": "which end is the ground",
     "actuator_of_one_end.yaml": "how many ends it has",
     "actuator_on_a_particle.yaml": "how the body moves",
+    "efficiency_of_a_planet.yaml": "how the body moves",
     "ratio_many.yaml": "on which bodies its bodies move",
     "ratio_redundant.yaml": "several ratios together",
     "ratio_without_motion.yaml": "several ratios together",

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Couplings that begin and end during a run.
+ * Forces and couplings that begin and end during a run.
+ *
+ * A force begins and ends without impulse. Where it has a potential, that begins or ends with it: the energy which the
+ * bodies have in it is its work at that instant, as of a spring that breaks.
  *
  * The end of a coupling changes neither positions nor velocities, and does no work. Where a coupling begins, its
  * positions must fit, and the velocities become compatible with it by a plastic impact. Its impulses are those of the
@@ -22,30 +25,57 @@
 #include "loop/run.h"
 #include "numeric/tolerances.h"
 
-/* ---- the end */
+/* ---- forces */
+
+static void change_force(struct run *run, int watch, enum life life)
+{
+    const struct watch *of = &run->model->plan.watches[watch];
+    const struct fbd_model *model = run->model;
+    struct fbd_state *state = run->state;
+    const struct instant at = state_instant(state);
+    double energy = 0;
+    impulse_look(state);
+    for (size_t i = 0; i < model->load_count; i++) {
+        if (model->loads[i].source->lifetime.number != of->source->lifetime) continue;
+        int *now = &state->tree->life[of->source->lifetime - 1];
+        const int before = *now;
+        *now = life_there;
+        const double V = potential_energy(model, &model->loads[i], &at, run->work.sample);
+        *now = before;
+        run->impact_work[i] += life == life_there ? V : -V;
+        energy += V;
+    }
+    state->tree->life[of->source->lifetime - 1] = life;
+    run->energy.lowered += life == life_there ? energy : -energy;
+    struct run_event *event =
+        log_event(run, life == life_there ? FBD_EVENT_FORCE_BEGINS : FBD_EVENT_FORCE_ENDS,
+                  model->loads[of->load].body, of->load, watch);
+    if (event) event->force = energy;
+    run->ended = true;
+}
+
+/* ---- the end of a coupling */
 
 static void end_coupling(struct run *run, int watch)
 {
     const struct watch *ending = &run->model->plan.watches[watch];
     const struct tree *tree = run->model->tree;
-    const int constraint = ending->source->ends - 1;
     struct fbd_state *state = run->state;
-    if (state->tree->couplings[ending->ends].gone) return;
-    for (int i = ending->ends; i < tree->coupling_count; i++) {
+    for (int i = ending->coupling; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
-        if (coupling->constraint != constraint && coupling->kind != constraint_resistance) break;
-        state->tree->couplings[i].gone = true;
+        if (coupling->source->lifetime.number != ending->source->lifetime) break;
         state->tree->couplings[i].feature = no_feature;
         const int modes[] = {coupling->pair, coupling->surface};
         for (int k = 0; k < 2; k++)
             if (modes[k] >= 0) state->slip[modes[k]] = slip_plus;
     }
-    log_event(run, FBD_EVENT_COUPLING_ENDS,
-              constraint_first_body(&run->model->scene->constraints[constraint]), -1, watch);
+    state->tree->life[ending->source->lifetime - 1] = life_over;
+    log_event(run, FBD_EVENT_COUPLING_ENDS, constraint_first_body(tree->couplings[ending->coupling].source),
+              -1, watch);
     run->ended = true;
 }
 
-/* ---- the begin */
+/* ---- the begin of a coupling */
 
 /* The size of the scene, for the tolerance of positions. */
 static double reach_of(const struct run *run)
@@ -129,13 +159,15 @@ static void open_separating(struct run *run)
 }
 
 /* Let all its pieces begin; false where their positions do not fit. */
-static bool start_pieces(struct run *run, int watch, int constraint)
+static bool start_pieces(struct run *run, int watch)
 {
     const struct tree *tree = run->model->tree;
-    const int first = run->model->plan.watches[watch].begins;
+    const int first = run->model->plan.watches[watch].coupling,
+              constraint = tree->couplings[first].constraint;
     struct fbd_state *state = run->state;
     const struct instant at = state_instant(state);
     impulse_look(state);
+    state->tree->life[run->model->plan.watches[watch].source->lifetime - 1] = life_there;
     for (int i = first; i < tree->coupling_count && tree->couplings[i].constraint == constraint; i++)
         coupling_begin(run->model, &at, i);
     impulse_look(state);
@@ -154,9 +186,7 @@ static bool start_pieces(struct run *run, int watch, int constraint)
 static void begin_coupling(struct run *run, int watch)
 {
     const struct watch *beginning = &run->model->plan.watches[watch];
-    const int constraint = beginning->source->begins - 1;
-    const struct coupling *coupling = &run->model->tree->couplings[beginning->begins];
-    if (!run->state->tree->couplings[beginning->begins].waits) return;
+    const struct coupling *coupling = &run->model->tree->couplings[beginning->coupling];
     const double before = total_kinetic_energy(run->state);
     const char *guide = rubbing_guide(run);
     if (guide) {
@@ -168,7 +198,7 @@ static void begin_coupling(struct run *run, int watch)
             run_time(run), coupling->name, guide);
         return;
     }
-    if (!start_pieces(run, watch, constraint)) return;
+    if (!start_pieces(run, watch)) return;
     state_project_position(run->state);
     impulse_look(run->state);
     strike_two_sided(run);
@@ -176,35 +206,49 @@ static void begin_coupling(struct run *run, int watch)
     run_strike_closed(run);
     open_separating(run);
     run->impact_work[coupling->load] += after - before;
-    struct run_event *event =
-        log_event(run, FBD_EVENT_COUPLING_BEGINS,
-                  constraint_first_body(&run->model->scene->constraints[constraint]), coupling->load, watch);
+    struct run_event *event = log_event(run, FBD_EVENT_COUPLING_BEGINS,
+                                        constraint_first_body(coupling->source), coupling->load, watch);
     if (event) event->force = before - total_kinetic_energy(run->state);
     run->ended = true;
 }
 
-/* ---- both */
+/* ---- all */
 
-void run_change_coupling(struct run *run, int watch)
+/* Is the begin or end of a watch still to come? An end waits for the begin. */
+static bool is_to_come(const struct run *run, const struct user_event *source)
+{
+    const int life = run->state->tree->life[source->lifetime - 1];
+    return life == (source->begins ? life_waits : life_there);
+}
+
+void run_change_lifetime(struct run *run, int watch)
 {
     const struct watch *of = &run->model->plan.watches[watch];
-    if (of->begins >= 0) begin_coupling(run, watch);
-    if (of->ends >= 0) end_coupling(run, watch);
+    if (!is_to_come(run, of->source)) return;
+    if (of->coupling < 0)
+        change_force(run, watch, of->source->begins ? life_there : life_over);
+    else if (of->source->begins)
+        begin_coupling(run, watch);
+    else
+        end_coupling(run, watch);
 }
 
 static bool is_due(const struct run *run, const struct watch *watch, const struct instant *at)
 {
-    if (watch->begins < 0 && watch->ends < 0) return false;
+    if (!watch_of_lifetime(watch->source) || !is_to_come(run, watch->source)) return false;
     const double value = formula_value(&watch->left, at) - formula_value(&watch->right, at);
     return watch->source->direction * value > 0 && run->end.outcome == FBD_GOING;
 }
 
-bool run_change_couplings(struct run *run)
+bool run_change_lifetimes(struct run *run)
 {
     const struct plan *plan = &run->model->plan;
     const struct instant at = state_instant(run->state);
-    for (size_t i = 0; i < plan->watch_count; i++)
-        if (is_due(run, &plan->watches[i], &at)) run_change_coupling(run, (int)i);
+    /* First the ends: the reactions of forces and couplings that begin here are not known yet. */
+    for (int begins = 0; begins < 2; begins++)
+        for (size_t i = 0; i < plan->watch_count; i++)
+            if (plan->watches[i].source->begins == (begins > 0) && is_due(run, &plan->watches[i], &at))
+                run_change_lifetime(run, (int)i);
     const bool any = run->ended && run->end.outcome == FBD_GOING;
     run->ended = false;
     return any;
