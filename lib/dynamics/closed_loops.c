@@ -340,18 +340,12 @@ static void set_basis(const struct closed_loops *loops)
     }
 }
 
-/* Let the dependent rates follow, unless the rates of the pins are `rounding`. After set_basis. */
+/* Let the dependent rates follow, unless the rates of the pins are `rounding`. */
 static void close_rates(const struct closed_loops *loops, double rounding)
 {
-    int count = loops->independent_count;
-    double own[most_independent];
     if (has_rates(loops, loops->share >= well ? rounding : within)) return;
-    for (int k = 0; k < count; k++) own[k] = loops->v[loops->independent[k]];
-    for (int i = 1; i < loops->tree->joined; i++) {
-        double sum = 0;
-        for (int k = 0; k < count; k++) sum += own[k] * loops->basis[k][i];
-        loops->v[i] = sum;
-    }
+    set_rest(loops, 0);
+    substitute(loops, loops->v);
 }
 
 /* Accelerations of the joints that keep the pins closed, with the independent ones zero. True if they are
@@ -453,8 +447,8 @@ bool closed_loops_rates(struct closed_loops *loops, const struct instant *at, in
     if (loops->unfit || loops->suspended) return false;
     read_joints(loops, at->y, n);
     if (!close_gaps(loops, links, within)) return false;
-    set_basis(loops);
     close_rates(loops, within);
+    set_basis(loops);
     move_links(loops, links);
     bool even = set_particular(loops, links);
     if (loops->share >= well) loops->even = even;
@@ -472,7 +466,6 @@ bool closed_loops_close(struct closed_loops *loops, struct tree_work *work, int 
     if (loops->unfit || loops->suspended) return false;
     read_joints(loops, y, n);
     if (!close_gaps(loops, work->links, at_ends)) return false;
-    set_basis(loops);
     close_rates(loops, at_ends);
     for (int i = 1; i < loops->tree->joined; i++) {
         y[loops->tree->links[i].coordinate] = loops->q[i];

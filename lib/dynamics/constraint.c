@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/constraint_view.h"
 
-#include <float.h>
-
 #include "dynamics/plane_friction.h"
 #include "expr/curve.h"
+#include "numeric/tolerances.h"
 
 bool port_turns(const struct port *port)
 {
@@ -317,7 +316,7 @@ double coupling_slip_rounding(const struct fbd_model *model, const struct instan
         size /= reach;
         moves /= reach;
     }
-    return 64 * DBL_EPSILON * (size + remoteness(model, at, coupling, size)) + 4 * DBL_EPSILON * moves;
+    return round_off(64, size + remoteness(model, at, coupling, size)) + round_off(4, moves);
 }
 
 double coupling_slip_velocity(const struct fbd_model *model, const struct instant *at, int coupling)
@@ -408,13 +407,13 @@ struct one_sided one_sided_at(const struct fbd_model *model, const struct instan
     state.slack = 1e-12 * size;
     /* For a body at rest: the angular velocity of a pendulum of that length. */
     if (length > 0) state.turning = fmax(state.turning, sqrt(vec_norm(model->scene->gravity) / length));
-    state.rounding = 16 * DBL_EPSILON * length;
+    state.rounding = round_off(16, length);
     state.near = 1e-9 * length;
     /* If all these links are at rest: the rounding of the fastest link of the scene, to which they may be
      * coupled, and the speed of a fall from that height. */
     double fast =
         fmax(sqrt(vec_norm(model->scene->gravity) * length), fastest(model->tree, at->tree, length));
-    double slow = 64 * DBL_EPSILON * fast;
+    double slow = round_off(64, fast);
     state.touches = fabs(state.excess) <= state.near && fabs(state.rate) <= 1e-10 * state.speed + slow;
     state.parts = state.rate < -1e-6 * state.speed - slow;
     state.meets = state.rate > 1e-6 * state.speed + slow;

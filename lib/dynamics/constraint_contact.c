@@ -8,7 +8,7 @@
  * is s k x n. The tangent of circles is k x u with u from the base to the circle; whichever of both is end 1, the rate
  * of g has -s. At a line the tangent e has n = +-side k x e with + for a base that is end 1, and again the rate is that
  * of the circle relative to the base, so that it has +side s in both cases. A line of the ground has its direction. */
-void row_move(const struct view *view, const struct coupling *coupling, double sign, struct row *along)
+static void row_move(const struct view *view, const struct coupling *coupling, double sign, struct row *along)
 {
     if (!coupling->moves || sign == 0) return;
     double rate = 0, second = 0, same, dt = view->along ? view->along->dt : 0;

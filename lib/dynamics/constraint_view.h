@@ -112,9 +112,6 @@ struct at_line {
     double moves; /* direction of the moving surface along e, 0 for none */
 };
 
-/* Subtract the speed of the surface, in direction `sign`, from the tangential row. */
-void row_move(const struct view *view, const struct coupling *coupling, double sign, struct row *along);
-
 /* The row along the line, and with `normal` also the row normal to it. */
 void row_line(const struct view *view, const struct coupling *coupling, const struct at_line *at, double zero,
               struct row *normal, struct row *along);

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/contact.h"
 
-#include <float.h>
-
 #include "dynamics/constraint.h"
 #include "dynamics/contact_thin.h"
+#include "numeric/tolerances.h"
 
 /* ---- points in the world */
 
@@ -125,7 +124,7 @@ double meeting_near(const struct fbd_model *model, const struct tree_work *work,
 
 double meeting_rounding(const struct fbd_model *model, const struct tree_work *work, int index)
 {
-    return 16 * DBL_EPSILON * reach_of(model, work, index);
+    return round_off(16, reach_of(model, work, index));
 }
 
 /* ---- a disc and a polygon */

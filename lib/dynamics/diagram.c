@@ -49,14 +49,15 @@ struct vec applied_force(const struct model_load *load, const struct pose *pose,
     return source->body_frame ? vec_turn(pose->rotation, f) : f;
 }
 
-struct vec load_place(const struct model_load *load, struct vec point, const struct instant *at)
+/* The point of application of a load: `point`, the position of its point of the body, or beside it. */
+static struct vec load_place(const struct model_load *load, struct vec point, const struct instant *at)
 {
     if (!load_is_placed(load->source)) return point;
     return vec_add(point,
                    (struct vec){formula_value(&load->offset_x, at), formula_value(&load->offset_y, at)});
 }
 
-struct vec drag_of_load(const struct model_load *load, struct vec v, const struct instant *at)
+static struct vec drag_of_load(const struct model_load *load, struct vec v, const struct instant *at)
 {
     const struct load *source = load->source;
     struct drag_law law = {source->linear, source->quadratic};

@@ -45,12 +45,6 @@ double load_power(const struct fbd_model *model, int index, const struct instant
 size_t diagram_list(const struct fbd_model *model, int index, const struct instant *at, const double *slots,
                     struct arrow *arrows);
 
-/* The point of application of a load: `point`, the position of its point of the body, or beside it. */
-struct vec load_place(const struct model_load *load, struct vec point, const struct instant *at);
-
-/* The drag on a point with the velocity `v`. */
-struct vec drag_of_load(const struct model_load *load, struct vec v, const struct instant *at);
-
 struct vec applied_force(const struct model_load *load, const struct pose *pose, const struct instant *at);
 
 /* The sums of a jointed body's diagram, about its centre of mass, and the values they must have. */

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/friction.h"
 
-#include <float.h>
-
 #include "dynamics/constraint_view.h"
+#include "numeric/tolerances.h"
 
 double friction_surface_speed(const struct mode *mode, const struct instant *at, double *acceleration)
 {
@@ -132,7 +131,7 @@ struct friction_values friction_along(const struct fbd_model *model, int pair, c
 
 double friction_rounding(const struct friction_values *now)
 {
-    return 8 * DBL_EPSILON * (fabs(now->hold) + now->limit);
+    return round_off(8, fabs(now->hold) + now->limit);
 }
 
 static double rate_of_limit(const struct friction_values *now, const struct friction_values *rate)
@@ -143,7 +142,7 @@ static double rate_of_limit(const struct friction_values *now, const struct fric
 double friction_rounding_of_time(const struct friction_values *now, const struct friction_values *rate,
                                  double t)
 {
-    return 64 * DBL_EPSILON * fabs(t) * (fabs(rate->hold) + fabs(rate_of_limit(now, rate)));
+    return round_off(64, fabs(t)) * (fabs(rate->hold) + fabs(rate_of_limit(now, rate)));
 }
 
 double friction_return(const struct friction_values *now)

@@ -2,10 +2,10 @@
  *
  * The velocities and tolerances by which modes are decided.
  */
-#include <float.h>
 
 #include "dynamics/constraint.h"
 #include "dynamics/modes.h"
+#include "numeric/tolerances.h"
 
 bool mode_has_ended(const struct fbd_state *state, int pair)
 {
@@ -28,7 +28,7 @@ double slip_velocity(const struct fbd_model *model, int pair, const struct insta
     if (mode->coupling >= 0) return coupling_slip_velocity(model, at, mode->coupling);
     double v = at->y[model->plan.n + mode->coordinate], acceleration;
     double s = friction_surface_speed(mode, at, &acceleration);
-    return fabs(v - s) <= 4 * DBL_EPSILON * fabs(s) ? 0 : v - s;
+    return fabs(v - s) <= round_off(4, fabs(s)) ? 0 : v - s;
 }
 
 double settling_velocity(const struct fbd_state *state, const struct decided *decided, int pair)

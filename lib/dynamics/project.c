@@ -7,6 +7,7 @@
 #include "dynamics/closed_loops.h"
 #include "dynamics/contact.h"
 #include "dynamics/tree_system.h"
+#include "numeric/tolerances.h"
 
 /* A projection; y is that of the instant. */
 struct place {
@@ -138,7 +139,7 @@ static double rounding(const struct place *place)
         const struct tree_state *s = &place->at.tree->links[i];
         reach = fmax(reach, fmax(vec_norm(s->p), vec_norm(s->d)));
     }
-    return 16 * DBL_EPSILON * reach;
+    return round_off(16, reach);
 }
 
 static struct vec port_point(const struct place *place, const struct port *port)
@@ -332,7 +333,7 @@ bool state_project_velocity(struct fbd_state *state, bool assemble)
     project_velocity(&place);
     if (state->model->tree->meeting_count > 0 &&
         change_since(&place, state->y + n, before, arm_length(&place)) >
-            far * fmax(off, DBL_EPSILON * speed)) {
+            far * fmax(off, round_off(1, speed))) {
         memcpy(state->y + n, before, bytes);
         place.at.tree->settling_down = true;
         project_velocity(&place);
@@ -378,7 +379,7 @@ static bool is_home(const struct place *place, const struct misfit *left)
     const struct tree *tree = place->model->tree;
     int meeting = left->row < 0 ? -1 : tree->couplings[tree->coupling_of_row[left->row]].meeting;
     double touching = meeting < 0 ? 0 : meeting_rounding(place->model, place->at.tree, meeting);
-    touching = fmax(touching, 16 * DBL_EPSILON * arm_length(place));
+    touching = fmax(touching, round_off(16, arm_length(place)));
     return left->position <= 1e3 * fmax(rounding(place), touching);
 }
 
@@ -455,12 +456,10 @@ static double square(double x)
     return x * x;
 }
 
-static const double epsilon = 4 * DBL_EPSILON;
-
 static double position_damping(const struct place *place, double misfit, double length)
 {
     double accuracy = place->at.tree->accuracy;
-    double rounds = square(epsilon / accuracy), other_branch = square(10 * accuracy);
+    double rounds = square(round_off(4, 1) / accuracy), other_branch = square(10 * accuracy);
     return fmin(1, fmax(fmax(rounds, other_branch), 4 * misfit / length));
 }
 
@@ -485,7 +484,7 @@ static void bring_back(const struct place *place)
         if (misfit > 0.9 * before) break;
     }
     if (moved) prepare(place);
-    factor(place, fmin(1, epsilon / work->accuracy));
+    factor(place, fmin(1, round_off(4, 1) / work->accuracy));
     move(place, true, 1);
     release(place);
 }

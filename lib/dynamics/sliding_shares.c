@@ -5,7 +5,6 @@
 #include "dynamics/sliding.h"
 
 #include <assert.h>
-#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,6 +14,7 @@
 #include "dynamics/tree.h"
 #include "dynamics/user_states.h"
 #include "dynamics/world_refs.h"
+#include "numeric/tolerances.h"
 
 /* ---- the surfaces */
 
@@ -332,7 +332,7 @@ void sliding_shift(struct sliding *s, int unit, double by)
  * couplings. */
 static void clear_rounding(const struct fbd_model *model, const struct instant *at, bool along, double *a)
 {
-    const double rounding = 8 * model->tree->joined * DBL_EPSILON;
+    const double rounding = round_off(8, model->tree->joined);
     const struct sliding *s = at->sliding;
     const double *coupled = tree_joins(model->tree) ? tree_rounding(model, at, along) : NULL;
     for (int i = 0; i < model->plan.n && !s->failed; i++) {

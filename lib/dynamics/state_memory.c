@@ -6,8 +6,8 @@
 #include "dynamics/rest_memo.h"
 #include "dynamics/tree_system.h"
 #include "dynamics/world_refs.h"
+#include "numeric/tolerances.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -120,5 +120,5 @@ void state_still(struct fbd_state *state, double duration)
         *most = fmax(*most, fabs(state->y[i]));
     }
     for (size_t i = 0; i < n; i++)
-        if (fabs(state->y[n + i]) * duration < DBL_EPSILON * size[coordinates[i].angle]) state->y[n + i] = 0;
+        if (fabs(state->y[n + i]) * duration < round_off(1, size[coordinates[i].angle])) state->y[n + i] = 0;
 }

@@ -6,13 +6,13 @@
  */
 #include "dynamics/tree_driven.h"
 
-#include <float.h>
 #include <string.h>
 
 #include "dynamics/constraint.h"
 #include "dynamics/friction.h"
 #include "dynamics/project.h"
 #include "dynamics/tree_system.h"
+#include "numeric/tolerances.h"
 
 double tree_hold_acceleration(const struct fbd_state *state, const struct instant *at, int pair)
 {
@@ -66,7 +66,7 @@ static double reach_of(const struct fbd_state *state)
 
 double tree_unseen_speed(const struct fbd_state *state, double time)
 {
-    const double share = 1e-12, roundings = 64 * DBL_EPSILON;
+    const double share = 1e-12, roundings = round_off(64, 1);
     double fastest = 0;
     for (int i = 1; i < state->model->tree->count; i++)
         fastest = fmax(fastest, vec_norm(state->tree->links[i].v));
@@ -114,8 +114,7 @@ bool tree_rests(const struct fbd_state *state)
     int n = state->model->plan.n;
     double fastest = 0;
     for (int i = 0; i < n; i++) fastest = fmax(fastest, fabs(state->y[n + i]));
-    return fastest == 0 ||
-           (state->t > 0 && fastest <= 64 * DBL_EPSILON * fmin(1, reach_of(state)) / state->t);
+    return fastest == 0 || (state->t > 0 && fastest <= round_off(64, fmin(1, reach_of(state))) / state->t);
 }
 
 /* With q' = a T the rows have the residual q'.H q', whose sign is that of the motion, for any T. */

@@ -11,7 +11,6 @@
  * distribution within all limits or not (rest_system.h); if it just exceeds them, all constraints at their
  * limits change their modes.
  */
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,6 +22,7 @@
 #include "dynamics/tree_gather.h"
 #include "dynamics/tree_shared.h"
 #include "dynamics/tree_system.h"
+#include "numeric/tolerances.h"
 
 /* ---- are the modes consistent with the forces? */
 
@@ -39,7 +39,7 @@ static double accelerated(const struct fbd_state *state, int pair)
 /* Does a slipping constraint reverse at once? */
 static bool turns_back(const struct fbd_state *state, int pair)
 {
-    const double rounding = 64 * DBL_EPSILON;
+    const double rounding = round_off(64, 1);
     const struct mode *mode = mode_of(state, pair);
     struct instant at = state_instant(state);
     double surface;
@@ -47,7 +47,7 @@ static bool turns_back(const struct fbd_state *state, int pair)
         return state->slip[pair] * coupling_slip_acceleration(state->model, &at, mode->coupling) < 0;
     friction_surface_speed(mode, &at, &surface);
     double a = state->a[mode->coordinate];
-    double least = 8 * DBL_EPSILON * (fabs(a) + fabs(surface)) + rounding * accelerated(state, pair);
+    double least = round_off(8, fabs(a) + fabs(surface)) + rounding * accelerated(state, pair);
     return slip_side(state->slip[pair]) * (a - surface) < -least;
 }
 

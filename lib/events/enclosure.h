@@ -21,10 +21,8 @@ struct enclosure_input {
 /* Enclosure of a formula, with the weights of a sliding mode; for at most one such switch in the formula. */
 struct enclosure enclose_formula(const struct enclosure_input *input, const struct formula *formula);
 
-/* The sum of the forces along a coordinate with a scalar equation (plan.h), and across the line of a body towards the
- * outside of its surface; without friction. */
+/* The sum of the forces along a coordinate with a scalar equation (plan.h), without friction. */
 struct enclosure enclose_force(const struct enclosure_input *input, int coordinate);
-struct enclosure enclose_force_across(const struct enclosure_input *input, int body);
 
 /* The normal force of a friction pair, towards the side of the surface. */
 struct enclosure enclose_normal_force(const struct enclosure_input *input, int pair);

@@ -88,7 +88,8 @@ struct enclosure enclose_force(const struct enclosure_input *input, int coordina
     return add_formulas(input, equation->formulas, f);
 }
 
-struct enclosure enclose_force_across(const struct enclosure_input *input, int body)
+/* Across the line of a body towards the outside of its surface. */
+static struct enclosure enclose_force_across(const struct enclosure_input *input, int body)
 {
     const struct fbd_model *model = input->state->model;
     const struct scalar_equation *equation = &model->plan.equations[model->bodies[body].first];

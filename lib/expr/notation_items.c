@@ -406,7 +406,8 @@ bool writing_read_items(struct writing *w)
 
 /* ---- queries of items */
 
-const struct item *item_behind_group(const struct item *item)
+/* The item behind the bracket that closes `item`, or the end. */
+static const struct item *item_behind_group(const struct item *item)
 {
     int depth = 0;
     for (; item->kind != item_end; item++) {

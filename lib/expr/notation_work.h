@@ -93,8 +93,7 @@ bool item_begins_operand(const struct item *item);
 /* True for a bracket that contains a single number or name. */
 bool item_is_single(const struct item *open);
 
-/* The item behind the bracket that closes `item`, or the end; the item behind the exponent of `^`. */
-const struct item *item_behind_group(const struct item *item);
+/* The item behind the exponent of `^`. */
 const struct item *item_behind_power(const struct item *power);
 
 /* True if `word` is at `offset`. */

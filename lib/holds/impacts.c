@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "holds/impacts.h"
 
-#include <float.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
@@ -9,6 +8,7 @@
 
 #include "holds/parts.h"
 #include "holds/together.h"
+#include "numeric/tolerances.h"
 
 /* ---- sequential impacts */
 
@@ -113,7 +113,7 @@ static enum impacts_end propagate(struct impacts *impacts)
         }
         double change = strike(impacts, i);
         if (change < 0) return impacts_jammed;
-        least += DBL_EPSILON * change;
+        least += round_off(1, change);
         if (grows(impacts, before)) return impacts_unsolvable;
     }
     return impacts_endless;
@@ -164,7 +164,7 @@ enum doing { does_not, does_to_rounding, does_to_digits };
 
 static enum doing do_what_they_say(const struct impacts *impacts, const double *before)
 {
-    const double share = 1e-9, of_products = 4 * DBL_EPSILON; /* also of the entries of W */
+    const double share = 1e-9, of_products = round_off(4, 1); /* also of the entries of W */
     int n = impacts_size(impacts);
     double wrong = 0, beyond = 0, energy = 0;
     for (int i = 0; i < n; i++) {
@@ -202,7 +202,7 @@ static enum impacts_end find_by(struct impacts *impacts, bool propagates)
 static void set_off(const struct impacts *impacts, const double *before, struct impacts *off, double *W,
                     unsigned *chance)
 {
-    const double rounding = 2 * DBL_EPSILON;
+    const double rounding = round_off(2, 1);
     const int n = impacts_size(impacts);
     double fastest = 0;
     for (int i = 0; i < n; i++) {

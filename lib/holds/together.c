@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "holds/together.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "holds/holds.h"
 #include "holds/others.h"
+#include "numeric/tolerances.h"
 
 /* v += W P for additional impulses; returns their work. */
 static double add_impulses(const struct impacts *impacts, const double *P, double *v)
@@ -217,7 +217,7 @@ static enum impacts_end close_in(struct together *together, struct between *betw
     double count_low = 1, count_high = 1, last = 0;
     for (int k = 1; k <= most_rounds && end == impacts_done; k++) {
         double width = between->high - between->low, at;
-        if (between->at_low >= -least || width <= 4 * DBL_EPSILON * between->high) break;
+        if (between->at_low >= -least || width <= round_off(4, between->high)) break;
         double low = count_low * between->at_low, high = count_high * between->at_high;
         double share = between->low + width * (k % patience == 0 ? 0.5 : low / (low - high));
         end = try_share(together, share, &at);

@@ -3,7 +3,6 @@
  * Apply an event: branches change, friction sticks, breaks away or reverses, contacts are lost, user events
  * are logged.
  */
-#include <float.h>
 #include <string.h>
 
 #include "dynamics/constraint.h"
@@ -17,6 +16,7 @@
 #include "loop/run.h"
 #include "loop/switch_event.h"
 #include "loop/zeno.h"
+#include "numeric/tolerances.h"
 #include "rest/start.h"
 
 /* ---- events by kind */
@@ -145,7 +145,7 @@ static bool counts_now(const struct run *run, int watch)
 
 static bool fired_now(const struct run *run, int watch)
 {
-    const double instant = 64 * DBL_EPSILON * fabs(run->state->t);
+    const double instant = round_off(64, fabs(run->state->t));
     return fabs(run->watchers.fired[watch] - run->state->t) <= instant;
 }
 
@@ -239,7 +239,7 @@ static void happen(struct run *run, const struct watcher *watcher, bool crossing
 static bool is_just_lost(struct run *run, const bool *moving, int contact, double N, double slack)
 {
     const struct watcher_set *set = &run->watchers.moving;
-    const double instant = 64 * DBL_EPSILON * fabs(run->state->t);
+    const double instant = round_off(64, fabs(run->state->t));
     double *values = run->work.values, *rates = values + set->count;
     for (size_t i = 0; moving && i < set->count; i++) {
         if (!moving[i] || set->watchers[i].kind != watch_contact || set->watchers[i].index != contact)

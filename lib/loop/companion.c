@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "loop/companion.h"
+#include "numeric/tolerances.h"
 
 #include <float.h>
 #include <stdlib.h>
@@ -207,7 +208,7 @@ static void plan_next(struct companion *companion, const struct ensemble *main, 
  * eps of their size. */
 static double floor_of(double size)
 {
-    return 3 * DBL_EPSILON * size;
+    return round_off(3, size);
 }
 
 double companion_error(const struct companion *companion, size_t i, double main, double other)
@@ -319,7 +320,7 @@ static double error_at_the_end(const struct companion *companion, double t)
 {
     const double near = 1e-9;
     double until = companion->ensemble->options.until;
-    return until - t <= near * until ? until - t + 4 * DBL_EPSILON * until : HUGE_VAL;
+    return until - t <= near * until ? until - t + round_off(4, until) : HUGE_VAL;
 }
 
 void companion_event_errors(const struct companion *companion, const struct ensemble *main, double *errors)
@@ -338,11 +339,11 @@ void companion_event_errors(const struct companion *companion, const struct ense
             double t = main->events[i].t, error = HUGE_VAL;
             double after = next < main->event_count ? main->events[next].t : HUGE_VAL;
             if (known && k < own->event_count)
-                error = fabs(t - own->events[k].t) + 2 * DBL_EPSILON * t;
+                error = fabs(t - own->events[k].t) + round_off(2, t);
             else if (known)
                 error = error_at_the_end(companion, t);
             double gap = fmin(t - before, after - t);
-            if (gap > 0 && error > gap / 2 + 8 * DBL_EPSILON * t) known = false;
+            if (gap > 0 && error > gap / 2 + round_off(8, t)) known = false;
             errors[i] = known ? error + main->events[i].delay : HUGE_VAL;
             if (k < own->event_count) k = next_alike(own, &main->events[first], k + 1);
             before = t;

@@ -2,7 +2,6 @@
  *
  * Couplings that close loops: a start that violates them is refused, and every step ends on the constraints.
  */
-#include <float.h>
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <string.h>
@@ -12,6 +11,7 @@
 #include "dynamics/tree_driven.h"
 #include "dynamics/tree_system.h"
 #include "loop/run.h"
+#include "numeric/tolerances.h"
 #include "rest/balance.h"
 #include "rest/fit.h"
 
@@ -86,7 +86,7 @@ static struct rounding rounding_of_step(struct run *run)
             if (link->mass > 0) most = fmax(most, fabs(force) / link->mass);
         }
     }
-    double unseen = 16 * DBL_EPSILON * run->drift.reach; /* a displacement at round-off level of positions */
+    double unseen = round_off(16, run->drift.reach); /* a displacement at round-off level of positions */
     double speed = share * most * time + (time > 0 ? unseen / time : 0);
     return (struct rounding){speed, speed * time, mass * speed * speed / 2};
 }
@@ -94,7 +94,7 @@ static struct rounding rounding_of_step(struct run *run)
 /* Has the projection moved the state by rounding only, of a scene at rest for example? */
 static bool is_moved_by_rounding(struct run *run)
 {
-    const double roundings = 64 * DBL_EPSILON;
+    const double roundings = round_off(64, 1);
     const struct coordinate *coordinates = run->model->scene->coordinates;
     size_t n = (size_t)run->model->plan.n;
     struct rounding rounding = rounding_of_step(run);
@@ -143,12 +143,18 @@ static double measure(struct run *run)
     return reach;
 }
 
+/* Of a step: an error below the least one is round-off. */
+static double tolerance_of(const struct run *run)
+{
+    return fmax(run->options.tolerance, least_part_tolerance);
+}
+
 /* Accepted violation at the end of a step before projection, relative to the size of the mechanism: from the
  * tolerance, or larger for a fixed step without error control. */
 static double explained(const struct run *run)
 {
-    const double many = 1e4, least = 1e-12, unknown = 0.1;
-    return run->options.step > 0 ? unknown : fmin(many * fmax(run->options.tolerance, least), unknown);
+    const double many = 1e4, unknown = 0.1;
+    return run->options.step > 0 ? unknown : fmin(many * tolerance_of(run), unknown);
 }
 
 /* Fail if a slack rope exceeds its length without having become taut: the event was missed. To close it now
@@ -270,7 +276,7 @@ void project_step(struct run *run)
     coupled_scales_set_floors(&run->mechanisms, run->state, run->stepper);
     if (overlong_rope(run, explained(run) * reach)) return;
     /* Positions near the origin have no size there: a stop at zero. */
-    bool nothing = misfit.position <= 16 * DBL_EPSILON * run->drift.reach;
+    bool nothing = misfit.position <= round_off(16, run->drift.reach);
     bool explains = nothing || misfit.position <= explained(run) * reach;
     nothing |= !explains && is_rounding(run, &misfit);
     if (!explains && !nothing) {
@@ -284,12 +290,12 @@ void project_step(struct run *run)
     }
     /* Where a mechanism can change to another branch (all bars in one line) a step may begin to do so, and
      * the projection back changes the energy by more than rounding. */
-    if (!(fabs(after - before) <= 1e4 * fmax(run->options.tolerance, 1e-12) * run->liveliest) &&
+    if (!(fabs(after - before) <= 1e4 * tolerance_of(run) * run->liveliest) &&
         !(fabs(after - before) <= rounding_of_step(run).energy)) {
         fail_singular(run, &misfit);
         return;
     }
-    if (nothing || left.position <= 1e3 * fmax(run->options.tolerance, 1e-12) * reach) return;
+    if (nothing || left.position <= 1e3 * tolerance_of(run) * reach) return;
     if (!fail_by_masses(run, &misfit))
         run_fail(run, FBD_FAILED,
                  "at t = %.9g the coupling `%s` cannot be closed (its error is %.3g): the mechanism is at "

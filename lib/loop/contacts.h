@@ -114,9 +114,6 @@ void run_check_jam(struct run *run, bool evaluated);
  * together with all other taut ropes and touching contacts. Decides which of them open. */
 void run_strike_closed(struct run *run);
 
-/* A moving drive, and the number of moving drives. */
-const struct mode *run_only_drive(const struct run *run, int *moving);
-
 /* Record the overlap of shapes with open contacts: within the touching tolerance, where a corner passes the
  * end of a side. */
 void contacts_note_depths(struct run *run);

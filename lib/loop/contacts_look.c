@@ -2,7 +2,6 @@
  *
  * Selection of contact pairs for the event search of a step, and its resolution.
  */
-#include <float.h>
 #include <string.h>
 
 #include "dynamics/contact.h"
@@ -11,6 +10,7 @@
 #include "expr/unit.h"
 #include "loop/contacts.h"
 #include "loop/run.h"
+#include "numeric/tolerances.h"
 
 static bool has_meetings(const struct fbd_model *model)
 {
@@ -128,7 +128,7 @@ static bool bends(struct run *run, int index, const struct look *a, const struct
 static double bend_between(struct run *run, int index, int probe, struct look a, struct look b)
 {
     const double share = 1e-6;
-    double least = fmax(share * (b.t - a.t), 4 * DBL_EPSILON * fabs(b.t));
+    double least = fmax(share * (b.t - a.t), round_off(4, fabs(b.t)));
     while (b.t - a.t > least) {
         struct look middle = look_at(run, index, probe, a.t + (b.t - a.t) / 2);
         if (bends(run, index, &a, &middle))
@@ -150,7 +150,7 @@ static bool may_dip(const struct look *a, const struct look *b)
 static double dip_between(struct run *run, int index, int probe, struct look a, struct look b)
 {
     const double share = 1e-6, end = b.t;
-    double least = fmax(share * (b.t - a.t), 4 * DBL_EPSILON * fabs(b.t));
+    double least = fmax(share * (b.t - a.t), round_off(4, fabs(b.t)));
     while (b.t - a.t > least && !stays_apart(&a, &b)) {
         struct look middle = look_at(run, index, probe, a.t + (b.t - a.t) / 2);
         if (middle.gap.x <= 0) return middle.t;

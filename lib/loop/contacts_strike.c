@@ -206,7 +206,8 @@ static double taken_by(const struct contacts_work *work, int count)
     return taken;
 }
 
-const struct mode *run_only_drive(const struct run *run, int *moving)
+/* A moving drive, and the number of moving drives. */
+static const struct mode *run_only_drive(const struct run *run, int *moving)
 {
     const struct plan *plan = &run->model->plan;
     const struct mode *only = NULL;

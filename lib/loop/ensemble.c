@@ -146,7 +146,7 @@ void ensemble_spoil(struct ensemble *ensemble, const char *format, ...)
 
 /* ---- the log of events */
 
-int group_body(const struct group *group, int index)
+static int group_body(const struct group *group, int index)
 {
     return index < 0 || !group->selection ? index : group->selection->bodies[index];
 }

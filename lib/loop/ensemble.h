@@ -139,8 +139,7 @@ struct fbd_state *ensemble_look_group(struct ensemble *ensemble, size_t index, s
 /* The probe of an island, for states within its steps; made at its first use. NULL when memory is out. */
 struct fbd_state *ensemble_probe(struct ensemble *ensemble, struct group *group);
 
-/* Index in the whole scene of body or load `index` of an island; -1 for -1. */
-int group_body(const struct group *group, int index);
+/* Index in the whole scene of load `index` of an island; -1 for -1. */
 int group_load(const struct group *group, int index);
 
 /* Number of its loads. */

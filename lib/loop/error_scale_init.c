@@ -13,6 +13,7 @@
 #include "dynamics/tree_system.h"
 #include "dynamics/user_states.h"
 #include "loop/run.h"
+#include "numeric/tolerances.h"
 
 /* The acceleration of coordinate i (or the rate of a user state), or its change within the time tau where
  * that is larger, since drives start without an acceleration. A change below the round-off level of the
@@ -218,7 +219,7 @@ static bool any_is_small(const struct run *run)
         most = fmax(most, fabs(run->state->y[i]));
         least = fmin(least, fabs(run->state->y[i]));
     }
-    return n > 0 && least <= DBL_EPSILON * most;
+    return n > 0 && least <= round_off(1, most);
 }
 
 /* The same for a user state that starts from zero. */

@@ -5,17 +5,17 @@
  */
 #include "loop/progress.h"
 
-#include <float.h>
 #include <math.h>
 
 #include "loop/run.h"
+#include "numeric/tolerances.h"
 
 /* Fail after many successive steps of a few roundings of the time: before a singularity, by a method with a
  * coarse error estimate, or between events that accumulate. */
 static void check_crawl(struct run *run)
 {
     enum { most_steps = 100 };
-    bool tiny = time_dd_since(run_end(run), run_start(run)) <= 8 * DBL_EPSILON * fabs(run->state->t);
+    bool tiny = time_dd_since(run_end(run), run_start(run)) <= round_off(8, fabs(run->state->t));
     run->step.crawl = tiny ? run->step.crawl + 1 : 0;
     if (run->step.crawl <= most_steps) return;
     if (run->recent.crowd > 0)

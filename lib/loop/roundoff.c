@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include <float.h>
 #include <gsl/gsl_errno.h>
 #include <limits.h>
 #include <string.h>
@@ -291,14 +290,14 @@ static void set_noise(struct run *run)
         add_gross_forces(run, (int)b, at, gross);
         for (int k = 0; k < body->count; k++) {
             int i = body->first + k;
-            double of_time = DBL_EPSILON * fabs(at->t * run->roundoff.along[i]),
-                   of_sum = DBL_EPSILON * roundings[!body->alone] * gross[k] * plan->inverse_inertia[i];
+            double of_time = round_off(1, fabs(at->t * run->roundoff.along[i])),
+                   of_sum = round_off(roundings[!body->alone], gross[k]) * plan->inverse_inertia[i];
             take_noise(run, (size_t)i, of_sum, of_time + run->roundoff.formulas[i]);
         }
     }
     for (int i = 0; i < plan->own; i++) {
         size_t rate = (size_t)plan->n + (size_t)i;
-        double of_time = DBL_EPSILON * fabs(at->t * run->roundoff.along[rate]);
+        double of_time = round_off(1, fabs(at->t * run->roundoff.along[rate]));
         take_noise(run, rate, 0, of_time + formula_rounding(&plan->rates[i], at));
     }
 }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "loop/run.h"
 
-#include <float.h>
 #include <gsl/gsl_errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +10,7 @@
 #include "dynamics/nonfinite.h"
 #include "dynamics/project.h"
 #include "loop/switch_event.h"
+#include "numeric/tolerances.h"
 #include "rest/start.h"
 
 /* ---- the system of the stepper */
@@ -314,7 +314,7 @@ static bool heed_poles(struct run *run)
     if (run->poles.count == 0) return true;
     double longest = poles_longest_step(&run->poles, run->state, &nearest);
     run->step.h = fmin(run->step.h, longest);
-    bool reached = nearest && longest <= 4 * DBL_EPSILON * fabs(run->state->t);
+    bool reached = nearest && longest <= round_off(4, fabs(run->state->t));
     if (reached) run_fail_pole(run, nearest);
     return !reached;
 }

@@ -2,12 +2,12 @@
  *
  * The first event within a step, and the state there.
  */
-#include <float.h>
 #include <gsl/gsl_errno.h>
 #include <string.h>
 
 #include "loop/contacts.h"
 #include "loop/run.h"
+#include "numeric/tolerances.h"
 
 /* The time until the zero of function i of the moving set, from its value and rate at an event; negative when
  * it has passed. */
@@ -20,7 +20,7 @@ static double time_left(const struct run *run, size_t i)
 /* Events separated by rounding of the time are simultaneous. */
 static double instant_at(double t)
 {
-    return 64 * DBL_EPSILON * fabs(t);
+    return round_off(64, fabs(t));
 }
 
 /* The state at t within the step, as if the step ended there: by a partial step, with prescribed motions
@@ -81,8 +81,7 @@ static bool polish(struct run *run, double step_end, double *t, double *move)
         before = size;
         last = *t;
         double next = *t + *move;
-        bool there =
-            !(next > run->step.from && next < step_end) || fabs(*move) <= 4 * DBL_EPSILON * fabs(next);
+        bool there = !(next > run->step.from && next < step_end) || fabs(*move) <= round_off(4, fabs(next));
         if (there || step == most_steps) break;
         *t = next;
     }

@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "loop/run.h"
+#include "numeric/tolerances.h"
 
 /* Distance of a double from a zero found by the search, in roundings. */
 static const double near = 64;
@@ -51,7 +52,7 @@ static void note_first_zero(struct run *run)
     }
     scan->t = time_dd_after(now, first).t;
     for (size_t i = 0; i < scan->count; i++)
-        scan->crossed[i] = values[i] < HUGE_VAL && values[i] - first <= near * DBL_EPSILON * fabs(scan->t);
+        scan->crossed[i] = values[i] < HUGE_VAL && values[i] - first <= round_off(near, fabs(scan->t));
 }
 
 /* Has a function whose zero rounds to this time crossed there? */
@@ -102,7 +103,7 @@ struct time_dd run_pin_timed(struct run *run)
         watchers_evaluate_timed(&run->watchers, run->during, t, values, rates, roundings);
         for (size_t i = 0; i < scan->count; i++)
             if (scan->crossed[i] && rates[i] < 0) move = fmin(move, -values[i] / rates[i]);
-        if (!(fabs(move) <= near * DBL_EPSILON * fabs(scan->t))) break;
+        if (!(fabs(move) <= round_off(near, fabs(scan->t)))) break;
         if (fabs(move) <= resolution(scan->t)) break;
         struct time_dd next = time_dd_after(t, move);
         if (time_dd_since(next, start) <= 0) next = at_once(start);
@@ -124,7 +125,7 @@ double run_time_to_switch(struct run *run)
 struct time_dd run_pin_moving(struct run *run, double t, double move, struct time_dd end)
 {
     struct time_dd there = time_dd_after(time_dd_at(t), move);
-    bool is_near = fabs(move) <= near * DBL_EPSILON * fabs(t);
+    bool is_near = fabs(move) <= round_off(near, fabs(t));
     if (!is_near || !(time_dd_since(there, run_start(run)) > 0 && time_dd_since(end, there) > 0))
         return time_dd_at(t);
     for (size_t i = 0; i < plan_size(&run->model->plan); i++) run->work.y[i] += move * run->work.f[i];

@@ -3,12 +3,12 @@
  * Evaluation of event functions, at instants and over intervals of time, on the dense output of the last
  * step.
  */
-#include <float.h>
 #include <gsl/gsl_errno.h>
 #include <string.h>
 
 #include "dynamics/world_refs.h"
 #include "loop/run.h"
+#include "numeric/tolerances.h"
 
 static int sample_timed(void *context, double t, const bool *asked, double *values, double *rate)
 {
@@ -158,12 +158,12 @@ static double measure(const struct run *run, double *speed)
  * sign of such a number is arbitrary, like that of an error. */
 static void set_noise(struct run *run)
 {
-    const double roundings = 64 * DBL_EPSILON, error = 0.1 * run->options.tolerance;
+    const double roundings = round_off(64, 1), error = 0.1 * run->options.tolerance;
     const struct scene *scene = run->model->scene;
     size_t n = (size_t)run->model->plan.n, own = plan_size(&run->model->plan);
     for (size_t k = 0; k < run->trajectory.count; k++) {
         size_t i = (size_t)run->trajectory.component[k];
-        if (i < own) run->trajectory.noise[k] = fmax(error, DBL_EPSILON) * run->roundoff.nothing[i];
+        if (i < own) run->trajectory.noise[k] = fmax(error, round_off(1, 1)) * run->roundoff.nothing[i];
     }
     if (run->model->tree->coupling_count == 0) return;
     double speed, reach = measure(run, &speed);

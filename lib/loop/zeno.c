@@ -2,7 +2,6 @@
  *
  * Zeno limits of bounces: when bounces are below the tolerance the series is summed, and the body rests.
  */
-#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,6 +10,7 @@
 #include "dynamics/tree_system.h"
 #include "loop/contacts.h"
 #include "loop/run.h"
+#include "numeric/tolerances.h"
 
 /* Speeds after an impact below this share of those before it are rounding. */
 static const double leaving_rounding = 1e-9;
@@ -65,7 +65,7 @@ static double sum_of_bounces(struct run *run, int meeting, double v, double a)
         if (e < 0) return NAN;
         if (has_constant_restitution(run, meeting)) return interval / (1 - e);
         sum += interval;
-        if (interval <= DBL_EPSILON * sum) return sum;
+        if (interval <= round_off(1, sum)) return sum;
         v *= e;
     }
     return HUGE_VAL;

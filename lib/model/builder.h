@@ -18,9 +18,6 @@ struct builder {
 /* Compile a value of the scene; registers its switches. */
 struct formula builder_formula(struct builder *builder, const struct value *value, int body, int load);
 
-/* The same for the rate of user state `own`. */
-struct formula builder_rate(struct builder *builder, const struct value *value, int own);
-
 struct formula formula_constant(double value);
 
 /* Add the modes of couplings and of prescribed motion (plan_couplings.c). */

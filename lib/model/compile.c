@@ -65,7 +65,7 @@ struct formula builder_formula(struct builder *builder, const struct value *valu
     return make_formula(builder, value, body, load, -1);
 }
 
-struct formula builder_rate(struct builder *builder, const struct value *value, int own)
+static struct formula builder_rate(struct builder *builder, const struct value *value, int own)
 {
     return make_formula(builder, value, -1, -1, own);
 }

@@ -30,7 +30,7 @@ int thin_feature(struct thin_corner corner, enum thin_side side)
     return thin_sides * (2 * corner.moving + corner.corner) + (int)side;
 }
 
-struct thin_corner thin_corner_at(int feature)
+static struct thin_corner thin_corner_at(int feature)
 {
     int number = feature / thin_sides;
     return (struct thin_corner){number / 2, number % 2};

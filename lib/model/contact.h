@@ -80,9 +80,6 @@ struct thin_corner thin_corner_of(const struct meeting *meeting, int probe);
 enum thin_side { thin_right, thin_left, thin_end, thin_begin, thin_round };
 int thin_feature(struct thin_corner corner, enum thin_side side);
 
-/* The corner of a feature of a thin contact pair. */
-struct thin_corner thin_corner_at(int feature);
-
 /* The number of sides: none of a point, two of a bar. */
 int shape_sides(const struct contact_shape *shape);
 

@@ -94,7 +94,8 @@ static const char *kind_of(const fbd_mode *mode, bool degenerate)
     return mode->re < -small ? "oscillates and decays" : "oscillates";
 }
 
-void linear_write_complex(struct text *text, double re, double im)
+/* A complex number as text; parts at round-off level are 0. */
+static void linear_write_complex(struct text *text, double re, double im)
 {
     const double round_off = 1e-12;
     text_number(text, fabs(re) < round_off * fabs(im) ? 0 : re, digits);

@@ -19,9 +19,6 @@ void linear_write_json_matrix(struct text *text, const char *name, const double 
 /* A matrix as text, row by row. */
 void linear_write_rows(struct text *text, const double *values, size_t rows, size_t columns);
 
-/* A complex number as text; parts at round-off level are 0. */
-void linear_write_complex(struct text *text, double re, double im);
-
 /* The unit of an output divided by that of an input: "m/N", "rad/(N*m)", "1/N"; "1" for a pure number. */
 void linear_write_unit(struct text *text, const char *output, const char *input);
 

@@ -19,6 +19,7 @@
 #include "dynamics/rest_system.h"
 #include "dynamics/tree.h"
 #include "expr/unit.h"
+#include "numeric/tolerances.h"
 
 /* Runs of all models need less than 2 roundings (tests/unit/test_balance.c); real errors are parts in a
  * thousand. */
@@ -71,7 +72,7 @@ static struct sums sums_of(const struct fbd_state *state, int b)
         sums.force += size;
         sums.moment += fabs(arrow->couple) + arm * size;
         sums.reach = fmax(sums.reach, arm);
-        sums.place += DBL_EPSILON * (vec_norm(arrow->point) + vec_norm(G)) * size;
+        sums.place += round_off(1, vec_norm(arrow->point) + vec_norm(G)) * size;
     }
     if (body_never_turns(body)) sums.M = sums.I_alpha = 0;
     return sums;
@@ -134,7 +135,7 @@ static struct answer_levels joined_level(const struct fbd_state *state)
     }
     if (work->shared) force = fmax(force, work->shared_size);
     force += mass * (a + omega * v + d * (alpha + omega * omega));
-    force *= answer_level + (reach > 0 ? 64 * DBL_EPSILON * away / reach : 0);
+    force *= answer_level + (reach > 0 ? round_off(64, away) / reach : 0);
     double gyration = mass > 0 ? sqrt(inertia / mass) : 0;
     return (struct answer_levels){force, force * fmax(reach, gyration) +
                                              answer_level * inertia * (alpha + omega * omega)};
@@ -172,7 +173,7 @@ static struct answer_levels *find_answers(const struct fbd_state *state)
     }
     for (size_t i = 0; made && i < plan_size(&state->model->plan); i++) {
         state_copy(there, state);
-        there->y[i] += DBL_EPSILON * fabs(state->y[i]);
+        there->y[i] += round_off(1, fabs(state->y[i]));
         state_evaluate(there);
         for (size_t b = 0; b < bodies; b++) {
             struct sums still = sums_of(here, (int)b), moved = sums_of(there, (int)b);

@@ -1,18 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "rest/fit.h"
 
-#include <float.h>
-
 #include "dynamics/constraint.h"
 #include "dynamics/project.h"
 #include "dynamics/tree_system.h"
 #include "expr/unit.h"
+#include "numeric/tolerances.h"
 
 /* Changes of component i of a state below this are ignored, in a mechanism of that length: some digits of it,
  * or the rounding of the position. */
 static double least_change(const struct fbd_state *state, int i, double length)
 {
-    const double digits = 1e-9, rounding = 64 * DBL_EPSILON;
+    const double digits = 1e-9, rounding = round_off(64, 1);
     int n = state->model->plan.n;
     if (i >= n || state->model->scene->coordinates[i].angle) return digits * fmax(1, fabs(state->y[i]));
     return digits * length + rounding * fabs(state->y[i]);
@@ -112,7 +111,7 @@ static double length_of(const struct fbd_state *state, const struct coupling *co
 static void find_misses(struct fbd_state *state, struct miss *position, struct miss *velocity)
 {
     const double digits = 2e-6; /* files have six digits */
-    const double rounding = 64 * DBL_EPSILON;
+    const double rounding = round_off(64, 1);
     const struct tree *tree = state->model->tree;
     struct instant at = state_instant(state);
     struct size size = {NULL, 0, 0, 0};

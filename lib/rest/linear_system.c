@@ -39,7 +39,7 @@ static bool is_singular(size_t n, double *matrix, size_t *pivot)
 }
 
 /* H has a pole at 0 where A is singular, and a zero there where [A, b; c, d] is. */
-bool siso_static_gain(const struct siso *siso, struct arena *arena, double *gain)
+static bool siso_static_gain(const struct siso *siso, struct arena *arena, double *gain)
 {
     const size_t n = siso->size, m = n + 1;
     double *M = ARENA_ARRAY(arena, m * m, double);

@@ -32,9 +32,6 @@ struct fbd_linear_system {
 bool linear_system_siso(const struct fbd_linear_system *system, size_t input, size_t output,
                         struct arena *arena, struct siso *siso);
 
-/* H(0) of it: infinite where a pole is at 0, NAN where a pole and a zero may cancel there. False when memory is out. */
-bool siso_static_gain(const struct siso *siso, struct arena *arena, double *gain);
-
 /* Frequencies [rad/s] of a plot of all responses: 50 in a decade, from a decade below the lowest frequency of poles and
  * zeros other than 0 to a decade above the highest, and those frequencies themselves. NULL when memory is out. */
 double *linear_system_frequencies(const struct fbd_linear_system *system, struct arena *arena, size_t *count);
