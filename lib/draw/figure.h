@@ -58,22 +58,22 @@ static inline void figure_wall(struct panel *pen, struct vec at, struct vec into
     panel_hatched_line(pen, vec_sub(at, side), vec_add(at, side), into);
 }
 
-/* The ground: the line under a coupling, the point of a contact, the polygons of contacts, the groove of a slot, the patch
+/* The ground, by the number of a coupling: the line under it, the point of a contact, the polygons of contacts, the groove of a slot, the patch
  * of a plane on which a body rubs; hatching in a circle. Extend a box by those places of lines and polygons that are next
  * to the bodies. */
-void figure_line(struct figure *figure, size_t coupling);
-void figure_peg(struct figure *figure, size_t coupling);
+void figure_line(struct figure *figure, size_t index);
+void figure_peg(struct figure *figure, size_t index);
 void figure_polygons(struct figure *figure);
-void figure_groove(struct figure *figure, size_t coupling);
-void figure_plane(struct figure *figure, size_t coupling);
+void figure_groove(struct figure *figure, size_t index);
+void figure_plane(struct figure *figure, size_t index);
 void figure_hatched_disc(struct panel *pen, struct vec center, double radius);
 void figure_take_lines(const struct figure *figure, struct box *box);
 void figure_take_polygons(const struct figure *figure, struct box *box);
 
 /* A rope or rod beneath the bodies; its arcs over discs, and belts, in front of them. */
-void figure_rope(struct figure *figure, size_t coupling);
-void figure_rope_arcs(struct figure *figure, size_t coupling);
-void figure_belt(struct figure *figure, size_t coupling);
+void figure_rope(struct figure *figure, size_t index);
+void figure_rope_arcs(struct figure *figure, size_t index);
+void figure_belt(struct figure *figure, size_t index);
 
 /* The marks that have a name or a letter: ratios, friction of bearings, gravity into a horizontal plane. */
 void figure_marks(struct figure *figure);

@@ -338,8 +338,9 @@ void figure_hatched_disc(struct panel *pen, struct vec center, double radius)
     const double step = 2.4;
     const struct vec e = vec_unit(-0.7853981633974483), n = vec_perp(e); /* at 45 degrees */
     text_add(&pen->under, "<path class=\"hatch\" d=\"");
-    for (double off = step / 2 - radius; off < radius; off += step) {
-        const double half = sqrt(radius * radius - off * off);
+    const int count = (int)round(2 * radius / step);
+    for (int i = 0; i < count; i++) {
+        const double off = (i + 0.5) * step - radius, half = sqrt(radius * radius - off * off);
         const struct vec middle = vec_add(center, vec_scale(off, n));
         text_add(&pen->under, " M");
         svg_point(&pen->under, vec_sub(middle, vec_scale(half, e)));

@@ -307,9 +307,9 @@ static void angle_arc(struct panel *panel, struct vec center, double radius, dou
 static const char *angle_text(struct panel *panel, const char *name, double angle)
 {
     double degrees = angle * 180 / pi;
-    const char *minus = angle < 0 ? "−" : "";
-    return isfinite(degrees) ? arena_printf(panel->arena, "%s%s%.4g°", name, minus, fabs(degrees))
-                             : arena_printf(panel->arena, "%s%s%.4g rad", name, minus, fabs(angle));
+    const bool finite = isfinite(degrees);
+    return arena_printf(panel->arena, "%s%s%s", name, panel_number(panel->arena, finite ? degrees : angle),
+                        finite ? "°" : " rad");
 }
 
 void panel_slope(struct panel *panel, struct vec foot, struct vec up)

@@ -191,6 +191,7 @@ double round_up(double value);
 const char *panel_value(struct panel *panel, double value, const char *unit);
 
 const char *panel_text(struct arena *arena, double value, const char *unit);
+const char *panel_number(struct arena *arena, double value);
 
 /* A scale, to six digits. */
 const char *panel_scale_value(struct panel *panel, double value, const char *unit);

@@ -38,6 +38,13 @@ static const char *write_value(struct arena *arena, double value, const char *un
     return keep(arena, &text);
 }
 
+const char *panel_number(struct arena *arena, double value)
+{
+    struct text text = {0};
+    number_write(&text, value, value_digits);
+    return keep(arena, &text);
+}
+
 const char *panel_text(struct arena *arena, double value, const char *unit)
 {
     return write_value(arena, value, unit, value_digits);
