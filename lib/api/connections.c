@@ -4,7 +4,8 @@
  */
 #include <math.h>
 
-#include "fbd_view.h"
+#include "expr/curve.h"
+#include "fbd_geometry.h"
 #include "model/model.h"
 
 static fbd_connection_end end_at(int body, const struct point *point)
@@ -72,4 +73,64 @@ fbd_connection fbd_model_connection(const fbd_model *model, size_t index)
     return index < scene->constraint_count
                ? of_constraint(&scene->constraints[index])
                : of_force(&scene->force_couplings[index - scene->constraint_count]);
+}
+
+/* ---- their lines */
+
+enum { curve_pieces = 240 };
+
+static bool is_slot(const struct constraint *constraint)
+{
+    return constraint->kind == constraint_slot || constraint->kind == constraint_groove;
+}
+
+static const struct constraint *constraint_at(const fbd_model *model, size_t connection)
+{
+    return model && connection < model->scene->constraint_count ? &model->scene->constraints[connection]
+                                                                : NULL;
+}
+
+fbd_path fbd_model_path(const fbd_model *model, size_t connection)
+{
+    const struct constraint *constraint = constraint_at(model, connection);
+    if (!constraint) return (fbd_path){.point_count = 0};
+    if (constraint->contact.polygon)
+        return (fbd_path){.point_count = constraint->contact.polygon->count, .closed = true};
+    if (!is_slot(constraint)) return (fbd_path){.point_count = 0};
+    fbd_path path = {.side = constraint->presses};
+    const struct curve *curve = constraint->curve;
+    if (curve && curve->closed) {
+        path.point_count = curve_pieces;
+        path.closed = true;
+    } else if (curve) {
+        path.point_count = curve_pieces + 1;
+    } else if (isfinite(constraint->from) && isfinite(constraint->to)) {
+        path.point_count = 2;
+    }
+    return path;
+}
+
+/* A point of a slot, relative to that on which its line or curve is based. */
+static struct vec slot_point(const struct constraint *constraint, size_t index)
+{
+    const struct curve *curve = constraint->curve;
+    if (curve) return curve_at(curve, NULL, curve->start + curve->length * (double)index / curve_pieces).r;
+    return vec_scale(index == 0 ? constraint->from : constraint->to, vec_unit(constraint->along));
+}
+
+bool fbd_model_path_point(const fbd_model *model, size_t connection, size_t index, double point[2])
+{
+    const struct constraint *constraint = constraint_at(model, connection);
+    const bool there = point && index < fbd_model_path(model, connection).point_count;
+    struct vec at = {NAN, NAN};
+    if (there && constraint->contact.polygon) {
+        at = constraint->contact.polygon->corners[index];
+    } else if (there) {
+        const int body = constraint->body[1];
+        const bool at_G = body != ground_body && constraint->point[1].kind != point_fixed;
+        const struct vec base = at_G ? model->bodies[body].inertia.G : constraint->point[1].where;
+        at = vec_add(base, slot_point(constraint, index));
+    }
+    if (point) point[0] = at.x, point[1] = at.y;
+    return there;
 }

@@ -19,10 +19,11 @@
 
 fbd_scene fbd_model_scene(const fbd_model *model)
 {
-    if (!model) return (fbd_scene){.units = "", .gravity = {NAN, NAN}};
+    if (!model) return (fbd_scene){.units = "", .gravity = {NAN, NAN}, .pressing = NAN};
     const struct scene *scene = model->scene;
     return (fbd_scene){.units = scene->units == unit_us ? "US" : "SI",
-                       .gravity = {scene->gravity.x, scene->gravity.y}};
+                       .gravity = {scene->gravity.x, scene->gravity.y},
+                       .pressing = scene->pressing};
 }
 
 int fbd_state_slip(fbd_state *state, size_t body)

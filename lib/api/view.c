@@ -115,8 +115,10 @@ static fbd_force force_of(const struct fbd_model *model, const struct arrow *arr
     const struct model_load *load = &model->loads[arrow->load];
     const enum load_kind kind = load->source->kind;
     force.kind = load_law(load->source)->drawing;
-    const bool on_line = model->bodies[load->body].joint->path == path_line;
-    if ((kind != load_normal && kind != load_friction) || !on_line) return force;
+    const bool listed =
+                   (size_t)arrow->load < model->listed_count, /* a coupling is no surface under the body */
+        on_line = model->bodies[load->body].joint->path == path_line;
+    if ((kind != load_normal && kind != load_friction) || !on_line || !listed) return force;
     force.slide = load->body;
     force.normal = kind == load_normal;
     return force;
@@ -217,7 +219,7 @@ static fbd_coupling_end end_of(const struct fbd_state *state, const struct coupl
 static bool is_lined(const struct coupling *coupling)
 {
     if (coupling->kind == constraint_contact) return coupling->source->contact.line;
-    return coupling->law->surface || coupling->kind == constraint_rack;
+    return (coupling->law->surface && !coupling->law->strands) || coupling->kind == constraint_rack;
 }
 
 static bool take_couplings(struct fbd_view *view, const struct fbd_state *state)

@@ -6,7 +6,7 @@
 
 #include "dynamics/diagram.h"
 #include "expr/curve.h"
-#include "fbd_view.h"
+#include "fbd_geometry.h"
 #include "model/outline.h"
 #include "output/words.h"
 

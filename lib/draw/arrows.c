@@ -253,14 +253,20 @@ static struct vec arc_point(const struct panel_arrow *arrow, double share)
                    vec_scale(arrow->radius, panel_direction((struct vec){cos(angle), sin(angle)})));
 }
 
-static void draw_moment(struct panel *panel, const fbd_force *source, int index, const char *suffix)
+/* The centre of an arc: where the force of a couple acts, else the axis of a pivot, else G. */
+static struct vec arc_center(const struct panel *panel, const fbd_force *source, bool with_force)
 {
-    struct vec axis =
-        panel_place(panel, panel->body.motion == FBD_MOTION_PIVOT ? vec_of(panel->body.pin) : panel->G);
+    if (with_force && source->slide < 0) return (struct vec){source->arrow.x, source->arrow.y};
+    return panel_place(panel, panel->body.motion == FBD_MOTION_PIVOT ? vec_of(panel->body.pin) : panel->G);
+}
+
+static void draw_moment(struct panel *panel, const fbd_force *source, int index, bool with_force)
+{
+    struct vec axis = arc_center(panel, source, with_force);
     double sweep = pi / 2 * source->arrow.couple / panel->scale.moment;
     struct panel_arrow *arrow = &panel->drawn[panel->drawn_count];
     *arrow = (struct panel_arrow){.source = source,
-                                  .suffix = suffix,
+                                  .suffix = with_force ? "-moment" : "",
                                   .small = fabs(sweep) < least_sweep,
                                   .value = fabs(source->arrow.couple), /* the arc shows the sign */
                                   .tail = panel_point(panel, axis),
@@ -300,7 +306,7 @@ void panel_arrows(struct panel *panel)
         if (force && panel->drawing->components) draw_components(panel, source, most.force);
         if (isfinite(source->arrow.couple) && !is_nothing(source->arrow.couple, most.moment) &&
             !panel_is_shifted(panel, source))
-            draw_moment(panel, source, moments++, force ? "-moment" : "");
+            draw_moment(panel, source, moments++, force);
     }
     separate_arrows(panel);
     for (size_t i = 0; i < panel->drawn_count; i++)

@@ -167,13 +167,14 @@ static bool is_prism(const struct node *keys, char *axis)
     return shape && shape->value->kind == node_scalar && strcmp(shape->value->text, "prism") == 0;
 }
 
-/* A rod that is given by its ends has no key for its length. */
+/* A rod that is given by its ends has no key for its length, but may have a letter: to: [L, 0]. */
 static const char *length_text(struct dimensioning *all, const struct part_of *part)
 {
     const double length = vec_norm(vec_sub(vec_of(part->shape.corners[1]), vec_of(part->shape.corners[0])));
-    const bool ends = node_find(part->keys, "from") && node_find(part->keys, "to");
-    return ends ? panel_text(&all->figure->arena, length, part->panel->units.length)
-                : text_of(all, part, "length", length);
+    const char *const ends[] = {"from", "to"};
+    return node_find(part->keys, "from") && node_find(part->keys, "to")
+               ? letters_same(&all->figure->letters, part->keys, ends, length, part->panel->units.length)
+               : text_of(all, part, "length", length);
 }
 
 /* The first side is along the x axis of the shape. */

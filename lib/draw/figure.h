@@ -12,6 +12,9 @@
 /* Length of a spring or damper to a wall without a position in the file, on paper [mm]. */
 static const double wall_distance = 26;
 
+/* Distance of the block of a follower from its point on the cam, on paper [mm]. */
+static const double follower_stem = 8;
+
 struct figure {
     struct arena arena;
     const fbd_model *model;
@@ -19,6 +22,7 @@ struct figure {
     struct panel *panels;
     size_t count;
     struct panel *pen; /* of the lines between the bodies */
+    struct box scene;  /* around the bodies and their connections, in the world */
     struct letters letters;
 };
 
@@ -46,6 +50,36 @@ static inline void box_take_circle(struct box *box, struct vec center, double ra
     box_take(box, vec_sub(center, (struct vec){radius, radius}));
     box_take(box, vec_add(center, (struct vec){radius, radius}));
 }
+
+/* Hatched ground across the unit vector `into`. */
+static inline void figure_wall(struct panel *pen, struct vec at, struct vec into)
+{
+    const struct vec side = vec_scale(5, vec_perp(into));
+    panel_hatched_line(pen, vec_sub(at, side), vec_add(at, side), into);
+}
+
+/* The ground, by the number of a coupling: the line under it, the point of a contact, the polygons of contacts, the groove of a slot, the patch
+ * of a plane on which a body rubs; hatching in a circle. Extend a box by those places of lines and polygons that are next
+ * to the bodies. */
+void figure_line(struct figure *figure, size_t index);
+void figure_peg(struct figure *figure, size_t index);
+void figure_polygons(struct figure *figure);
+void figure_groove(struct figure *figure, size_t index);
+void figure_plane(struct figure *figure, size_t index);
+void figure_hatched_disc(struct panel *pen, struct vec center, double radius);
+void figure_take_lines(const struct figure *figure, struct box *box);
+void figure_take_polygons(const struct figure *figure, struct box *box);
+
+/* A rope or rod beneath the bodies; its arcs over discs, and belts, in front of them. */
+void figure_rope(struct figure *figure, size_t index);
+void figure_rope_arcs(struct figure *figure, size_t index);
+void figure_belt(struct figure *figure, size_t index);
+
+/* The marks that have a name or a letter: ratios, friction of bearings, gravity into a horizontal plane. */
+void figure_marks(struct figure *figure);
+
+/* The entries of the list below the figure: the letters with their values, and the ratios; NULL past the last one. */
+const char *figure_listed(struct figure *figure, size_t index);
 
 /* Draw the springs and dampers, and the couplings and the ground under contacts: beneath the bodies. */
 void figure_links(struct figure *figure);

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Connections of the bodies in the figure of the system: springs and dampers, ropes, rods, belts, gears, racks,
- * grooves, and the ground under contacts.
+ * Connections of the bodies in the figure of the system: springs and dampers, actuators, pins, welds, gears, racks. Ropes,
+ * rods and belts are in figure_ropes.c, grooves and the ground in figure_ground.c.
  */
 #include <string.h>
 
 #include "draw/figure.h"
 
-static const double pi = 3.141592653589793, drum_radius = 4;
+static const double pi = 3.141592653589793;
 
 /* ---- springs and dampers */
 
@@ -47,12 +47,6 @@ static void dashpot(struct panel *pen, struct vec from, struct vec to)
     panel_line(pen, "thread", middle, to, on_outline);
 }
 
-static void wall(struct panel *pen, struct vec at, struct vec into)
-{
-    const struct vec side = vec_scale(5, vec_perp(into));
-    panel_hatched_line(pen, vec_sub(at, side), vec_add(at, side), into);
-}
-
 /* The letter or the value of a stiffness or damping coefficient. */
 static void name_spring(struct figure *figure, const fbd_spring *spring, struct vec from, struct vec to)
 {
@@ -87,121 +81,10 @@ static void draw_spring(struct figure *figure, size_t index)
     if (!(vec_norm(way) > 0)) return;
     (spring.damper ? dashpot : zigzag)(pen, from, to);
     name_spring(figure, &spring, from, to);
-    if (grounded) wall(pen, to, vec_scale(1 / vec_norm(way), way));
+    if (grounded) figure_wall(pen, to, vec_scale(1 / vec_norm(way), way));
 }
 
 /* ---- couplings */
-
-/* The ground under a rolling circle or a contact. */
-struct strip {
-    bool there;
-    struct vec foot, e, n; /* below the body, along the ground and out of it, in the world */
-    double reach;          /* to each side, on paper */
-};
-
-static struct strip strip_of(const struct figure *figure, size_t index)
-{
-    const fbd_coupling coupling = fbd_view_coupling(figure->view, index);
-    if (!coupling.lined) return (struct strip){.there = false};
-    const fbd_coupling_end end = fbd_view_coupling_end(figure->view, index, 0),
-                           line = fbd_view_coupling_end(figure->view, index, 1);
-    if (line.body >= 0 || end.body < 0) return (struct strip){.there = false};
-    const struct vec e = vec_unit(coupling.angle), n = vec_scale(coupling.side, vec_perp(e)),
-                     center = figure_place(figure, end.body, end.point);
-    const double high = vec_dot(n, vec_sub(center, vec_of(line.point)));
-    const struct vec foot = vec_sub(center, vec_scale(high, n)),
-                     touch = end.place_count > 0 ? vec_of(end.places[0]) : foot;
-    const double far = fmax(fabs(end.radius), fabs(vec_dot(e, vec_sub(touch, foot))));
-    return (struct strip){
-        .there = true, .foot = foot, .e = e, .n = n, .reach = fmax(30, far * figure->pen->millimetres + 20)};
-}
-
-/* True if both are on one side of one line. */
-static bool on_one_line(const struct figure *figure, const struct strip *a, const struct strip *b)
-{
-    const double off = vec_dot(a->n, vec_sub(b->foot, a->foot)) * figure->pen->millimetres;
-    return a->there && b->there && fabs(vec_cross(a->e, b->e)) < 1e-9 && vec_dot(a->n, b->n) > 0 &&
-           fabs(off) < 0.05;
-}
-
-/* Draw the ground under all bodies on one line, once. */
-static void draw_line(struct figure *figure, size_t index)
-{
-    struct panel *pen = figure->pen;
-    const struct strip strip = strip_of(figure, index);
-    double low = 0, high = 0;
-    for (size_t i = 0; i < fbd_view_coupling_count(figure->view); i++) {
-        const struct strip other = strip_of(figure, i);
-        if (!on_one_line(figure, &strip, &other)) continue;
-        if (i < index) return;
-        const double at = vec_dot(strip.e, vec_sub(other.foot, strip.foot)) * pen->millimetres;
-        low = fmin(low, at - other.reach);
-        high = fmax(high, at + other.reach);
-    }
-    if (!strip.there) return;
-    const struct vec foot = panel_point(pen, strip.foot), e = panel_direction(strip.e),
-                     from = vec_add(foot, vec_scale(low, e)), to = vec_add(foot, vec_scale(high, e));
-    panel_hatched_line(pen, from, to, vec_scale(-1, panel_direction(strip.n)));
-    if (fabs(strip.e.x * strip.e.y) < 1e-9) return;
-    const bool rises = strip.e.y > 0;
-    panel_slope(pen, rises ? from : to, rises ? strip.e : vec_scale(-1, strip.e));
-}
-
-/* A point of the ground that a rod, rope or belt ends at: a drum where the length of the rope changes. */
-static void draw_anchor(struct figure *figure, const fbd_coupling *coupling, struct vec at)
-{
-    struct panel *pen = figure->pen;
-    if (strcmp(coupling->kind, "rope") == 0 && coupling->length == 0) {
-        svg_circle(&pen->under, "body", at, drum_radius);
-        svg_circle(&pen->under, "hole", at, 0.8);
-        box_take_circle(&pen->extent, at, drum_radius);
-    } else if (strcmp(coupling->kind, "rod") == 0) {
-        panel_bearing(pen, at, 1);
-        svg_circle(&pen->under, "hole", at, 1.1);
-    } else {
-        wall(pen, at, (struct vec){0, -1});
-    }
-}
-
-/* A rod, rope or belt: lines between the places where it acts. */
-static void draw_links(struct figure *figure, const fbd_coupling *coupling, size_t index)
-{
-    struct vec last = {0, 0};
-    for (size_t k = 0; k < coupling->end_count; k++) {
-        const fbd_coupling_end end = fbd_view_coupling_end(figure->view, index, k);
-        struct vec center = figure_point(figure, end.body, end.point), first = center, leaves = center;
-        if (end.place_count > 0) first = leaves = figure_place_of(figure, end.body, end.places[0]);
-        if (end.place_count > 1) leaves = figure_place_of(figure, end.body, end.places[1]);
-        if (end.radius > 0 && end.body < 0) {
-            const double radius = end.radius * figure->pen->millimetres;
-            svg_circle(&figure->pen->under, "body", center, radius);
-            box_take_circle(&figure->pen->extent, center, radius);
-        }
-        if (k > 0) panel_line(figure->pen, "thread", last, first, on_outline);
-        if (end.body < 0 && !(end.radius > 0)) draw_anchor(figure, coupling, center);
-        last = leaves;
-    }
-}
-
-/* Both strands of a belt: between the places of the view, and their mirror images at the line of centres. */
-static void draw_belt(struct figure *figure, size_t index)
-{
-    struct vec centers[2], touched[2];
-    for (size_t k = 0; k < 2; k++) {
-        const fbd_coupling_end end = fbd_view_coupling_end(figure->view, index, k);
-        centers[k] = figure_point(figure, end.body, end.point);
-        touched[k] = end.place_count > 0 ? figure_place_of(figure, end.body, end.places[0]) : centers[k];
-    }
-    const struct vec way = vec_sub(centers[1], centers[0]), unit = vec_scale(1 / vec_norm(way), way);
-    struct vec mirrored[2];
-    for (int k = 0; k < 2; k++) {
-        const struct vec out = vec_sub(touched[k], centers[k]);
-        mirrored[k] = vec_add(centers[k], vec_sub(vec_scale(2 * vec_dot(out, unit), unit), out));
-    }
-    if (!(vec_norm(way) > 0)) return;
-    panel_line(figure->pen, "thread", touched[0], touched[1], on_outline);
-    panel_line(figure->pen, "thread", mirrored[0], mirrored[1], on_outline);
-}
 
 /* Teeth as short lines across the pitch circle, whose distance is the same on both wheels; on the inside of a ring
  * gear. */
@@ -245,37 +128,15 @@ static void draw_rack(struct figure *figure, size_t index)
     }
 }
 
-/* A straight groove at its pin; a curved one has no line in the view. */
-static void draw_groove(struct figure *figure, size_t index)
-{
-    const double half = 13, wide = 1.7;
-    const fbd_coupling coupling = fbd_view_coupling(figure->view, index);
-    const fbd_coupling_end pin = fbd_view_coupling_end(figure->view, index, 0),
-                           groove = fbd_view_coupling_end(figure->view, index, 1);
-    const struct node *entry = letters_entry(&figure->letters, "", coupling.name);
-    if (!entry || node_find(entry, "x")) return;
-    const double turned = groove.body < 0 ? 0 : figure->panels[groove.body].pose.angle;
-    const struct vec at = figure_point(figure, pin.body, pin.point),
-                     e = panel_direction(vec_unit(coupling.angle + turned)), end = vec_scale(half, e),
-                     side = vec_scale(wide, vec_perp(e));
-    struct panel *pen = figure->pen;
-    for (int sign = -1; sign <= 1; sign += 2) {
-        const struct vec middle = vec_add(at, vec_scale(sign, side));
-        panel_line(pen, "thread", vec_sub(middle, end), vec_add(middle, end), on_outline);
-        panel_line(pen, "thread", vec_sub(vec_add(at, vec_scale(sign, end)), side),
-                   vec_add(vec_add(at, vec_scale(sign, end)), side), on_outline);
-    }
-    svg_circle(&pen->under, "hole", at, 1.1);
-}
-
 /* Draw a coupling that is seen in front of its bodies. */
 static void draw_coupling_over(struct figure *figure, size_t index)
 {
     const char *kind = fbd_view_coupling(figure->view, index).kind;
-    if (strcmp(kind, "belt") == 0) draw_belt(figure, index);
+    if (strcmp(kind, "belt") == 0) figure_belt(figure, index);
+    if (strcmp(kind, "rope") == 0) figure_rope_arcs(figure, index);
     if (strcmp(kind, "gear") == 0) draw_teeth(figure, index);
     if (strcmp(kind, "rack") == 0) draw_rack(figure, index);
-    if (strcmp(kind, "slot") == 0) draw_groove(figure, index);
+    if (strcmp(kind, "slot") == 0) figure_groove(figure, index);
 }
 
 /* A cross; at a wall beyond it, seen from the body, if it is one to the ground. */
@@ -291,7 +152,7 @@ static void draw_weld(struct figure *figure, size_t index)
         const struct vec G =
             panel_point(figure->pen, panel_place(&figure->panels[body], figure->panels[body].G));
         const double far = vec_norm(vec_sub(at, G));
-        wall(figure->pen, at, far > half ? vec_scale(1 / far, vec_sub(at, G)) : (struct vec){0, 1});
+        figure_wall(figure->pen, at, far > half ? vec_scale(1 / far, vec_sub(at, G)) : (struct vec){0, 1});
     }
     for (int i = 0; i < 2; i++)
         panel_line(figure->pen, "thread", vec_sub(at, arms[i]), vec_add(at, arms[i]), 4);
@@ -301,9 +162,13 @@ static void draw_coupling(struct figure *figure, size_t index)
 {
     const fbd_coupling coupling = fbd_view_coupling(figure->view, index);
     if (coupling.lined)
-        draw_line(figure, index);
+        figure_line(figure, index);
     else if (strcmp(coupling.kind, "rod") == 0 || strcmp(coupling.kind, "rope") == 0)
-        draw_links(figure, &coupling, index);
+        figure_rope(figure, index);
+    else if (strcmp(coupling.kind, "plane") == 0)
+        figure_plane(figure, index);
+    else if (strcmp(coupling.kind, "contact") == 0)
+        figure_peg(figure, index);
     else if (strcmp(coupling.kind, "pin") == 0) {
         const fbd_coupling_end end = fbd_view_coupling_end(figure->view, index, 0);
         const struct vec at = figure_point(figure, end.body, end.point);
@@ -316,6 +181,7 @@ static void draw_coupling(struct figure *figure, size_t index)
 void figure_links(struct figure *figure)
 {
     for (size_t i = 0; i < fbd_view_spring_count(figure->view); i++) draw_spring(figure, i);
+    figure_polygons(figure);
     for (size_t i = 0; i < fbd_view_coupling_count(figure->view); i++) draw_coupling(figure, i);
 }
 

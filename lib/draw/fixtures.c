@@ -3,6 +3,8 @@
  * The fixtures of a panel: outline and centre of mass of the body, its surface or axis, and its coordinate.
  */
 
+#include <string.h>
+
 #include "draw/panel.h"
 #include "fbd_view.h"
 
@@ -50,7 +52,7 @@ static void avoid_bar(struct panel *panel, struct vec from, struct vec to)
     labelling_avoid(&panel->labels, vec_sub(from, side), vec_sub(to, side), on_outline);
 }
 
-static void avoid_circle(struct panel *panel, struct vec center, double radius)
+void panel_avoid_circle(struct panel *panel, struct vec center, double radius)
 {
     enum { sides = 32 };
     for (int i = 0; i < sides; i++) {
@@ -95,7 +97,7 @@ static void take_part(struct panel *panel, const fbd_shape *part)
     box_take(&panel->extent, (struct vec){center.x + reach, center.y + reach});
     for (size_t i = 0; i < part->corner_count; i++)
         box_take(&panel->extent, panel_point(panel, panel_place(panel, vec_of(part->corners[i]))));
-    if (part->kind == FBD_SHAPE_CIRCLE) avoid_circle(panel, center, reach);
+    if (part->kind == FBD_SHAPE_CIRCLE) panel_avoid_circle(panel, center, reach);
 }
 
 /* Draw the edge of the body. */
@@ -108,11 +110,24 @@ static void edge(struct panel *panel, const struct vec *corners, size_t count)
     }
 }
 
-/* Draw a wheel with a spoke that shows its angle; or a bar or plate through the points. */
+static void draw_cam(struct panel *panel)
+{
+    const size_t connection = (size_t)panel->plate.cam,
+                 count = fbd_model_path(panel->model, connection).point_count;
+    struct vec *corners = ARENA_ARRAY(panel->arena, count, struct vec);
+    double point[2];
+    for (size_t i = 0; corners && fbd_model_path_point(panel->model, connection, i, point); i++)
+        corners[i] = panel_point(panel, panel_place(panel, vec_of(point)));
+    if (corners) edge(panel, corners, count);
+}
+
+/* Draw the outline of a cam; a wheel with a spoke that shows its angle; or a bar or plate through the points. */
 static void draw_plate(struct panel *panel)
 {
     const struct plate *plate = &panel->plate;
-    if (plate->wheel > 0) {
+    if (plate->cam >= 0) {
+        draw_cam(panel);
+    } else if (plate->wheel > 0) {
         fbd_shape disc = {.kind = FBD_SHAPE_CIRCLE,
                           .center = {plate->hub.x, plate->hub.y},
                           .radius = plate->wheel};
@@ -143,7 +158,7 @@ static void draw_plate(struct panel *panel)
 static void draw_sizeless(struct panel *panel)
 {
     struct vec G = panel_point(panel, panel_place(panel, panel->G));
-    if (panel->plate.wheel > 0 || panel->plate.count > 1) {
+    if (panel->plate.cam >= 0 || panel->plate.wheel > 0 || panel->plate.count > 1) {
         draw_plate(panel);
         return;
     }
@@ -159,7 +174,7 @@ static void draw_sizeless(struct panel *panel)
         bool point = panel->body.motion == FBD_MOTION_PARTICLE || panel->body.motion == FBD_MOTION_TRACK;
         const double radius = point ? dot_radius : conventional_disc;
         svg_circle(&panel->under, point ? "mass" : "body", G, radius);
-        avoid_circle(panel, G, radius);
+        panel_avoid_circle(panel, G, radius);
         return;
     }
     if (panel->joined && panel->plate.rods > 1) { /* the end of a truss, on a roller */
@@ -292,9 +307,9 @@ static void angle_arc(struct panel *panel, struct vec center, double radius, dou
 static const char *angle_text(struct panel *panel, const char *name, double angle)
 {
     double degrees = angle * 180 / pi;
-    const char *minus = angle < 0 ? "−" : "";
-    return isfinite(degrees) ? arena_printf(panel->arena, "%s%s%.4g°", name, minus, fabs(degrees))
-                             : arena_printf(panel->arena, "%s%s%.4g rad", name, minus, fabs(angle));
+    const bool finite = isfinite(degrees);
+    return arena_printf(panel->arena, "%s%s%s", name, panel_number(panel->arena, finite ? degrees : angle),
+                        finite ? "°" : " rad");
 }
 
 void panel_slope(struct panel *panel, struct vec foot, struct vec up)
@@ -346,14 +361,24 @@ static double coordinate_of(const struct panel *panel, size_t index)
     return value;
 }
 
+/* In the figure of a long chain each text of an angle is written once. */
+static bool is_repeated(const struct panel *panel, const char *text)
+{
+    const size_t most_bodies = 4;
+    if (!panel->joined || fbd_model_body_count(panel->model) <= most_bodies) return false;
+    for (size_t i = 0; i < panel->labels.label_count; i++)
+        if (strcmp(panel->labels.labels[i].text, text) == 0) return true;
+    return false;
+}
+
 /* Draw the angle of rotation of a body, from the direction `zero` in the world. */
 static void draw_angle(struct panel *panel, struct vec center, double zero, double length)
 {
     double theta = coordinate_of(panel, (size_t)panel->body.angle), turn = remainder(theta, 2 * pi);
     struct vec end = vec_add(center, vec_scale(length, panel_direction(vec_unit(zero))));
-    panel_line(panel, "reference", center, end, 5);
     const char *text = angle_text(panel, "θ = ", theta);
-    if (!text) return;
+    if (!text || is_repeated(panel, text)) return;
+    panel_line(panel, "reference", center, end, 5);
     if (fabs(turn) < 0.03)
         panel_note(panel, text, end, panel_direction(vec_unit(zero)));
     else
@@ -378,6 +403,7 @@ static void draw_pivot(struct panel *panel)
     bool hangs = vec_norm(G) > 1;
     struct vec d = {0, hangs && G.y > -0.3 * vec_norm(G) ? -1 : 1};
     if (on_ground(panel) && panel->drawing->supports) panel_bearing(panel, axis, d.y);
+    if (panel->body.friction && panel->drawing->supports) panel_bush(panel, axis);
     /* theta is zero where the body's frame is parallel to that of its parent */
     double parent = panel->pose.angle - coordinate_of(panel, panel->body.coordinate);
     struct vec arm = vec_sub(panel->G, vec_of(panel->body.pin));
@@ -432,6 +458,7 @@ void panel_fixtures(struct panel *panel)
     if (panel->body.motion == FBD_MOTION_SLIDE) draw_slide(panel);
     if (panel->body.motion == FBD_MOTION_PIVOT) draw_pivot(panel);
     if (panel->body.motion == FBD_MOTION_TRACK) draw_track(panel);
+    if (panel->body.motion == FBD_MOTION_WELD) panel_clamp(panel);
     if (panel->body.motion == FBD_MOTION_PLANAR && !panel->joined) {
         struct vec G = panel_point(panel, panel_place(panel, panel->G));
         double theta = coordinate_of(panel, (size_t)panel->body.angle);
@@ -440,5 +467,6 @@ void panel_fixtures(struct panel *panel)
         draw_axis_of_body(panel, G, reach + 12);
         draw_angle(panel, G, panel->pose.angle - theta, reach + 12);
     }
+    if (!panel->joined && !panel->drawing->worksheet) panel_gravity(panel);
     text_add(&panel->under, "</g>\n");
 }

@@ -97,6 +97,40 @@ const char *letters_text(struct letters *letters, const struct node *map, const 
     return known ? panel_text(letters->arena, value, unit) : NULL;
 }
 
+/* True if the text of a list or scalar has the name as a word. */
+static bool names(const struct node *given, const char *name)
+{
+    static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.";
+    if (given->kind == node_list)
+        for (size_t i = 0; i < given->count; i++)
+            if (names(given->items[i], name)) return true;
+    if (given->kind != node_scalar) return false;
+    const size_t length = strlen(name);
+    for (const char *at = strstr(given->text, name); at; at = strstr(at + 1, name)) {
+        const bool begins = at == given->text || !strchr(letters, at[-1]),
+                   ends = at[length] == '\0' || !strchr(letters, at[length]);
+        if (begins && ends) return true;
+    }
+    return false;
+}
+
+const char *letters_same(struct letters *letters, const struct node *map, const char *const keys[2],
+                         double value, const char *unit)
+{
+    const double rounding = 1e-12; /* of a few operations between the parameter and the value */
+    for (size_t i = 0; i < fbd_model_parameter_count(letters->model); i++) {
+        const fbd_parameter parameter = fbd_model_parameter(letters->model, i);
+        const bool same =
+            strcmp(parameter.unit, unit) == 0 && fabs(parameter.value - value) <= rounding * value;
+        if (!same || (!names(value_of(map, keys[0]), parameter.name) &&
+                      !names(value_of(map, keys[1]), parameter.name)))
+            continue;
+        letters->units[i] = unit;
+        return letter_of(letters, i);
+    }
+    return panel_text(letters->arena, value, unit);
+}
+
 const char *letters_listed(struct letters *letters, size_t index)
 {
     for (size_t i = 0; i < fbd_model_parameter_count(letters->model); i++) {

@@ -37,6 +37,11 @@ const char *letters_slope(const struct letters *letters, const char *body);
 const char *letters_text(struct letters *letters, const struct node *map, const char *key, double value,
                          const char *unit);
 
+/* The letter of a parameter that both has this value and occurs in the expressions of one of two keys that are there; else
+ * the value. */
+const char *letters_same(struct letters *letters, const struct node *map, const char *const keys[2],
+                         double value, const char *unit);
+
 /* The list of the letters with their values: "m = 2 kg", "l = 1.5 m". `index` counts from 0; NULL past the last one. */
 const char *letters_listed(struct letters *letters, size_t index);
 

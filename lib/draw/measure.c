@@ -13,8 +13,11 @@ static void take_point(struct vec *low, struct vec *high, struct vec point)
     *high = (struct vec){fmax(high->x, point.x), fmax(high->y, point.y)};
 }
 
-static void take_plate(const struct plate *plate, struct vec *low, struct vec *high)
+static void take_plate(const fbd_model *model, const struct plate *plate, struct vec *low, struct vec *high)
 {
+    double point[2];
+    for (size_t i = 0; plate->cam >= 0 && fbd_model_path_point(model, (size_t)plate->cam, i, point); i++)
+        take_point(low, high, vec_of(point));
     const struct vec reach = {plate->wheel, plate->wheel};
     for (size_t i = 0; i < plate->count; i++) take_point(low, high, plate->points[i]);
     if (!(plate->wheel > 0)) return;
@@ -43,7 +46,7 @@ double panel_measure(struct panel *panel)
     if (!panel->shaped) low = high = G;
     take_point(&low, &high, G);
     panel->plate = plate_of(panel->model, panel->view, panel->index);
-    take_plate(&panel->plate, &low, &high);
+    take_plate(panel->model, &panel->plate, &low, &high);
     take_forces(panel, &low, &high);
     if (panel->body.motion == FBD_MOTION_PIVOT) take_point(&low, &high, vec_of(panel->body.pin));
     panel->middle = panel_place(panel, vec_scale(0.5, vec_add(low, high)));

@@ -137,6 +137,15 @@ void panel_hatched_line(struct panel *panel, struct vec from, struct vec to, str
 /* A bearing: a triangle on hatched ground, below the axis (`down` is 1) or above it (-1). */
 void panel_bearing(struct panel *panel, struct vec axis, double down);
 
+/* Labels avoid a circle on paper. */
+void panel_avoid_circle(struct panel *panel, struct vec center, double radius);
+
+/* The bush of a bearing with friction; hatched ground at the joint of a body that is welded to it, seen from the centre of
+ * mass; in a horizontal plane the weight into the paper and the normal force out of it. */
+void panel_bush(struct panel *panel, struct vec axis);
+void panel_clamp(struct panel *panel);
+void panel_gravity(struct panel *panel);
+
 /* Draw the body and its centre of mass. */
 void panel_body(struct panel *panel);
 
@@ -182,11 +191,12 @@ double round_up(double value);
 const char *panel_value(struct panel *panel, double value, const char *unit);
 
 const char *panel_text(struct arena *arena, double value, const char *unit);
+const char *panel_number(struct arena *arena, double value);
 
 /* A scale, to six digits. */
 const char *panel_scale_value(struct panel *panel, double value, const char *unit);
 
-/* A symbol with its indices in braces, as svg_text takes them. */
+/* A symbol with its indices in braces, as svg_text takes them: "m_1" and "m1" are "m_{1}". */
 const char *panel_indexed(struct arena *arena, const char *symbol);
 
 #endif

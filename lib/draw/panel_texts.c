@@ -2,6 +2,8 @@
  *
  * Numbers with units, and symbols, as texts of a panel.
  */
+#include <string.h>
+
 #include "base/engineering.h"
 #include "base/printed.h"
 #include "draw/panel.h"
@@ -36,6 +38,13 @@ static const char *write_value(struct arena *arena, double value, const char *un
     return keep(arena, &text);
 }
 
+const char *panel_number(struct arena *arena, double value)
+{
+    struct text text = {0};
+    number_write(&text, value, value_digits);
+    return keep(arena, &text);
+}
+
 const char *panel_text(struct arena *arena, double value, const char *unit)
 {
     return write_value(arena, value, unit, value_digits);
@@ -51,9 +60,30 @@ const char *panel_scale_value(struct panel *panel, double value, const char *uni
     return write_value(panel->arena, value, unit, scale_digits);
 }
 
+static bool is_letter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+/* True for the first of the digits at the end of a word of letters: the index of "m1". */
+static bool is_index(const char *symbol, const char *at)
+{
+    const size_t digits = strspn(at, "0123456789");
+    const char *word = at, behind = at[digits];
+    while (word > symbol && is_letter(word[-1])) word--;
+    return digits > 0 && word < at && (word == symbol || word[-1] == ' ') &&
+           (behind == '\0' || behind == ' ');
+}
+
 const char *panel_indexed(struct arena *arena, const char *symbol)
 {
-    struct text text = {0};
-    text_symbol_indexed(&text, symbol);
+    struct text spaced = {0}, text = {0};
+    for (const char *c = symbol; *c; c++) {
+        if (is_index(symbol, c)) text_add(&spaced, "_");
+        text_add_bytes(&spaced, c, 1);
+    }
+    text_symbol_indexed(&text, spaced.data ? spaced.data : "");
+    text.failed |= spaced.failed;
+    text_free(&spaced);
     return keep(arena, &text);
 }

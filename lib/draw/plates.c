@@ -22,12 +22,24 @@ static void add_place(struct plate *plate, const fbd_view *view, const fbd_body 
               vec_add(vec_of(body->pin), vec_turn(back, vec_sub(place, (struct vec){pose.x, pose.y}))));
 }
 
-static void add_couplings(struct plate *plate, const fbd_view *view, const fbd_body *body, int b)
+static bool is_cam(const fbd_model *model, size_t connection)
+{
+    const fbd_path path = fbd_model_path(model, connection);
+    return path.closed && path.side != 0;
+}
+
+static void add_couplings(struct plate *plate, const fbd_model *model, const fbd_view *view,
+                          const fbd_body *body, int b)
 {
     for (size_t i = 0; i < fbd_view_coupling_count(view); i++)
         for (size_t k = 0; k < fbd_view_coupling(view, i).end_count; k++) {
             const fbd_coupling_end end = fbd_view_coupling_end(view, i, k);
             if (end.body != b) continue;
+            const size_t entry = fbd_view_coupling(view, i).entry;
+            if (k == 1 && is_cam(model, entry)) {
+                plate->cam = (int)entry;
+                continue;
+            }
             if (strcmp(fbd_view_coupling(view, i).kind, "rod") == 0) plate->rods++;
             if (end.radius > plate->wheel) plate->wheel = end.radius, plate->hub = vec_of(end.point);
             if (!(end.radius > 0)) add_point(plate, vec_of(end.point));
@@ -87,13 +99,13 @@ static void put_in_order(struct plate *plate)
 
 struct plate plate_of(const fbd_model *model, const fbd_view *view, size_t body)
 {
-    struct plate plate = {.rider = -1};
+    struct plate plate = {.rider = -1, .cam = -1};
     const fbd_body b = fbd_model_body(model, body);
     struct vec low, high;
     if (shapes_size(model, body, &low, &high) || b.motion == FBD_MOTION_PARTICLE ||
         b.motion == FBD_MOTION_TRACK)
         return plate;
-    add_couplings(&plate, view, &b, (int)body);
+    add_couplings(&plate, model, view, &b, (int)body);
     add_joints(&plate, model, &b, (int)body);
     add_springs(&plate, view, (int)body);
     if (b.motion == FBD_MOTION_SLIDE)

@@ -15,6 +15,7 @@ struct plate {
     size_t count;
     double wheel; /* radius of the gear around `hub`; 0 if it is none */
     struct vec hub;
+    int cam; /* the connection with the closed curve on which another body is one-sided: the outline; else -1 */
     int rods;  /* that end at the body */
     int rider; /* the body that slides on this slide; else -1 */
 };

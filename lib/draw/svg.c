@@ -118,7 +118,7 @@ static void escape_bytes(struct text *text, const char *string, size_t length)
 static void write_piece(struct text *text, const char *string, size_t length, bool low)
 {
     if (length == 0) return;
-    if (low) text_add(text, "<tspan dy=\"-.2em\">");
+    if (low) text_add(text, "<tspan dy=\"-.2em\" xml:space=\"preserve\">");
     if (low && *string == ' ') {
         text_add(text, "\u00a0");
         string++;
@@ -212,7 +212,7 @@ const char svg_style[] =
     ".fbd .mass{fill:#222;stroke:#222;stroke-width:.3}\n"
     ".fbd .bar{fill:none;stroke:#222;stroke-width:2.6;stroke-linecap:round}\n"
     ".fbd .bar-inside{fill:none;stroke:#dfe6ee;stroke-width:1.7;stroke-linecap:round}\n"
-    ".fbd .thread{stroke:#222;stroke-width:.35}\n"
+    ".fbd .thread{stroke:#222;stroke-width:.35}.fbd .rope{fill:none;stroke:#222;stroke-width:.6}\n"
     ".fbd .ground{stroke:#777;stroke-width:.5}\n"
     ".fbd .hatch{fill:none;stroke:#aaa;stroke-width:.25}\n"
     ".fbd .support{fill:#fff;stroke:#777;stroke-width:.4}\n"
@@ -240,7 +240,8 @@ const char svg_style[] =
     "@media screen and (prefers-color-scheme:dark){\n"
     ".fbd text{fill:#e8e8e8}.fbd .note,.fbd .axis-label{fill:#a8adb5}\n"
     ".fbd .paper,.fbd .hole,.fbd .support,.fbd .center{fill:#14171c}\n"
-    ".fbd .body{fill:#2c3644;stroke:#ccd}.fbd .hole,.fbd .mass,.fbd .bar,.fbd .thread{stroke:#ccd}\n"
+    ".fbd .body{fill:#2c3644;stroke:#ccd}.fbd .hole,.fbd .mass,.fbd .bar,.fbd .thread,.fbd "
+    ".rope{stroke:#ccd}\n"
     ".fbd .mass{fill:#ccd}.fbd .bar-inside{stroke:#2c3644}\n"
     ".fbd .ground,.fbd .support,.fbd .axis{stroke:#99a}.fbd .hatch{stroke:#667}\n"
     ".fbd .axis-head{fill:#99a}.fbd .dimension,.fbd .reference,.fbd .leader{stroke:#889}\n"

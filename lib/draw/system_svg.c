@@ -6,6 +6,8 @@
  */
 #include "draw/system_svg.h"
 
+#include <string.h>
+
 #include "base/diag.h"
 #include "draw/figure.h"
 #include "fbd_view.h"
@@ -39,6 +41,16 @@ static void take_track(const struct figure *figure, size_t b, struct box *box)
     }
 }
 
+/* The curve of a slot, or its limited line. */
+static void take_curve(const struct figure *figure, size_t connection, struct box *box)
+{
+    const fbd_connection slot = fbd_model_connection(figure->model, connection);
+    double point[2];
+    if (strcmp(slot.kind, "slot") != 0) return;
+    for (size_t i = 0; fbd_model_path_point(figure->model, connection, i, point); i++)
+        box_take(box, figure_place(figure, slot.ends[1].body, point));
+}
+
 static struct box extent_of(const struct figure *figure)
 {
     struct box box = box_nothing;
@@ -56,9 +68,13 @@ static struct box extent_of(const struct figure *figure)
         for (size_t k = 0; k < coupling.end_count; k++) {
             const fbd_coupling_end end = fbd_view_coupling_end(figure->view, i, k);
             if (coupling.lined && end.body < 0) continue; /* a line of the ground has no ends */
+            if (end.body < 0 && fbd_model_path(figure->model, coupling.entry).point_count > 0) continue;
             box_take_circle(&box, figure_place(figure, end.body, end.point), fabs(end.radius));
         }
     }
+    figure_take_lines(figure, &box);
+    figure_take_polygons(figure, &box);
+    for (size_t i = 0; i < fbd_model_connection_count(figure->model); i++) take_curve(figure, i, &box);
     return box;
 }
 
@@ -128,11 +144,41 @@ static struct vec aside_of(const struct figure *figure, size_t body)
     return aside;
 }
 
+/* The one-sided slot whose point is on this block, as a number of coupling; their number for none. */
+static size_t cam_under(const struct figure *figure, size_t body)
+{
+    const size_t count = fbd_view_coupling_count(figure->view);
+    for (size_t i = 0; i < count && is_sizeless(&figure->panels[body]); i++) {
+        const size_t entry = fbd_view_coupling(figure->view, i).entry;
+        if (strcmp(fbd_view_coupling(figure->view, i).kind, "slot") == 0 &&
+            fbd_model_path(figure->model, entry).side != 0 &&
+            fbd_view_coupling_end(figure->view, i, 0).body == (int)body)
+            return i;
+    }
+    return count;
+}
+
+/* A block that follows a cam is drawn beyond its point on it, with a stem (figure_follower). */
+static struct vec beyond_cam(const struct figure *figure, size_t body, size_t coupling)
+{
+    const struct panel *panel = &figure->panels[body];
+    const fbd_coupling_end cam = fbd_view_coupling_end(figure->view, coupling, 1);
+    const struct vec e = vec_of(panel->pose.along),
+                     axis = cam.body < 0 ? vec_of(cam.point)
+                                         : panel_place(&figure->panels[cam.body],
+                                                       vec_of(figure->panels[cam.body].body.pin)),
+                     way = vec_sub(vec_of(panel->pose.G), axis);
+    return vec_scale((panel->block.x + follower_stem) / panel->millimetres,
+                     vec_dot(way, e) < 0 ? vec_scale(-1, e) : e);
+}
+
 /* The displacement of a body from its place in the scene: a body on a surface of a sliding body stands on top of
  * it, and carries along those on it. */
 static struct vec lift_of(const struct figure *figure, size_t body)
 {
     const struct panel *panel = &figure->panels[body];
+    const size_t cam = cam_under(figure, body);
+    if (cam < fbd_view_coupling_count(figure->view)) return beyond_cam(figure, body, cam);
     if (panel->body.carrier < 0) return aside_of(figure, body);
     const struct panel *under = &figure->panels[panel->body.carrier];
     const struct vec lift = lift_of(figure, (size_t)panel->body.carrier);
@@ -186,7 +232,7 @@ static bool prepare(struct figure *figure, const fbd_state *state, const fbd_dra
         panel_measure(&figure->panels[b]);
         figure->panels[b].slope = letters_slope(&figure->letters, figure->panels[b].body.name);
     }
-    const struct box box = extent_of(figure);
+    const struct box box = figure->scene = extent_of(figure);
     const struct vec size = vec_sub(box.high, box.low), middle = vec_scale(0.5, vec_add(box.low, box.high));
     const double largest = fmax(size.x, size.y);
     const double millimetres = largest > 0 ? 10 / round_up(10 * largest / figure_size) : 1;
@@ -203,6 +249,7 @@ static void draw(struct figure *figure)
     draw_bodies(figure);
     figure_links_over(figure);
     figure_forces(figure);
+    figure_marks(figure);
     figure_dimensions(figure);
     labelling_solve(&figure->pen->labels);
     for (size_t i = 0; i < figure->pen->labels.label_count; i++) {
@@ -216,7 +263,7 @@ static double write_list(struct figure *figure, struct text *text, struct vec at
 {
     const double line = 5, apart = 5, top = at.y, left = at.x;
     const char *entry;
-    for (size_t i = 0; (entry = letters_listed(&figure->letters, i)); i++) {
+    for (size_t i = 0; (entry = figure_listed(figure, i)); i++) {
         const double wide = svg_text_width(entry, label_size);
         if (i == 0 || at.x + wide > left + width) at = (struct vec){left, at.y + line};
         if (text) svg_text_at(text, "given", at, entry);
@@ -232,6 +279,9 @@ static void write(struct figure *figure, const fbd_drawing *drawing, struct text
     const double top = drawing->untitled ? margin : heading;
     struct vec size = vec_add(vec_sub(extent.high, extent.low), (struct vec){2 * margin, top + margin});
     if (!drawing->untitled) size.x = fmax(size.x, 2 * margin + svg_text_width(title, 4.8));
+    const char *entry;
+    for (size_t i = 0; (entry = figure_listed(figure, i)); i++)
+        size.x = fmax(size.x, 2 * margin + svg_text_width(entry, label_size));
     const double list_width = size.x - 2 * margin, bottom = size.y - margin;
     size.y += write_list(figure, NULL, (struct vec){margin, bottom}, list_width);
     svg_begin(text, size, fmin(1, fmin(190 / size.x, 270 / size.y)), title,

@@ -24,7 +24,7 @@ check 'without the ground' lacks 'class="(ground|hatch)"' out
 check '--supports' exits 0 draw "$incline" --supports
 check 'draws it' says 'class="hatch"' out
 check '--symbols' exits 0 draw "$incline" --symbols
-index='<tspan class="index" dy=".286em">' back='</tspan><tspan dy="-.2em">' nbsp=$(printf '\302\240')
+index='<tspan class="index" dy=".286em">' back='</tspan><tspan dy="-.2em" xml:space="preserve">' nbsp=$(printf '\302\240')
 for symbol in mg N "μ${index}k${back}N</tspan>" push; do
     check "labels an arrow $symbol" says ">$symbol</text>" out
 done
@@ -79,6 +79,37 @@ check 'stands on a pin' says 'polygon class="support"' out
 check 'and a roller' says 'circle class="support"' out
 check 'an applied moment' exits 0 draw "$crank" --system
 check 'is an arc with its letter' sh -c 'grep -q "path class=\"shaft\"" out && grep -q ">drive<" out'
+check 'stairs' exits 0 draw "$models/contact/stairs.yaml" --system
+# a floor and a wall each of three steps, and the floor at the bottom: no side between two of the polygons
+check 'have the outline of their polygons together' sh -c '[ "$(grep -c "class=\"ground\"" out)" -eq 6 ]'
+check 'a table on a floor' exits 0 draw "$models/contact/ball_off_a_table.yaml" --system
+check 'has three sides, and the floor is one' sh -c '[ "$(grep -c "class=\"ground\"" out)" -eq 4 ]'
+check 'a cam' exits 0 draw "$models/couplings/cam_and_follower.yaml" --system
+check 'has its outline, of 240 points' sh -c '[ "$(grep "class=\"body\"" out | sed "s/.*points=//" | wc -w | sort -n | tail -n 1)" -ge 240 ]'
+check 'and in the diagram of its forces' exits 0 draw "$models/couplings/cam_and_follower.yaml" --body cam
+check '(its outline)' sh -c '[ "$(grep "class=\"body\"" out | wc -w)" -ge 240 ]'
+check 'where the force of the follower acts' says 'face on cam: .*acts at \(0, 0\.05\) m' out
+check 'a rope round a bollard' exits 0 draw "$models/couplings/capstan.yaml" --system
+check 'lies on it' says 'path class="rope" d="M[^"]* A' out
+check 'and the bollard is hatched' says '<path class="hatch" d=" M' out
+check 'its force on a block is at the rope' exits 0 draw "$models/couplings/capstan.yaml" --body hand
+check '(in the middle)' says 'rope on hand: .*acts at \(-2, 0\.1\) m' out
+check 'a ratio' exits 0 draw "$models/couplings/differential.yaml" --system
+check 'has its equation below' says '>gears: 2 cage.theta − left.theta − right.theta is constant<' out
+check 'a journal bearing' exits 0 draw "$models/rotation/journal_bearing.yaml" --system
+check 'has a ring' says 'circle class="mass" [^>]*r="1.9"' out
+check 'with the letter of its coefficient' says '>μ</text>' out
+check 'a horizontal plane' exits 0 draw "$models/kinetics/puck.yaml" --system
+check 'has gravity into the paper' says '>⊗ g</text>' out
+check 'and a patch of ground' says 'class="hatch"' out
+check 'and in the diagram of forces' exits 0 draw "$models/kinetics/puck.yaml" --symbols
+check 'the weight and the normal force' says '>⊗ mg, ⊙ N</text>' out
+check 'but not on a worksheet' exits 0 draw "$models/kinetics/puck.yaml" --worksheet
+check '(no weight)' lacks '⊗' out
+check 'letters with a number' exits 0 draw "$models/trees/stacked_blocks.yaml" --system
+check 'have it as their index' says ">m${index}1</tspan></text>" out
+check 'a rod given by its ends' exits 0 draw "$models/statics/cantilever.yaml" --system
+check 'has the letter of its length' says '>L = 2 m<' out
 check '--system is no body alone' exits 2 draw "$crank" --system --body piston
 
 all_drawn() { # the figure of every model, well formed

@@ -73,7 +73,7 @@ function along(element) {
   for (let k = 0; k <= count; k++) points.push(element.getPointAtLength(length * k / count).matrixTransform(matrix));
   return points;
 }
-const lines = document.querySelectorAll('.body, .hole, .bar, .shaft, .thread, .ground, .dimension, .leader');
+const lines = document.querySelectorAll('.body, .hole, .bar, .shaft, .thread, .rope, .ground, .dimension, .leader');
 for (const line of lines) {
   const half = line.classList.contains('bar') ? 1.2 * line.getScreenCTM().a : 0, points = along(line);
   letters.forEach((b, i) => {

@@ -24,6 +24,11 @@ static void bodies(void)
     ANSWERS(fbd_model_point, !fbd_model_point(model, 0, past).name);
     ANSWERS(fbd_model_track, is_nan(fbd_model_track(NULL, 0).length));
     ANSWERS(fbd_model_track, is_nan(fbd_model_track(model, past).length));
+    double point[2] = {0, 0};
+    ANSWERS(fbd_model_path, fbd_model_path(NULL, 0).point_count == 0);
+    ANSWERS(fbd_model_path, fbd_model_path(model, past).point_count == 0);
+    ANSWERS(fbd_model_path_point, !fbd_model_path_point(NULL, 0, 0, point) && is_nan(point[0]));
+    ANSWERS(fbd_model_path_point, !fbd_model_path_point(model, past, 0, NULL));
     ANSWERS(fbd_model_track_place, is_nan(fbd_model_track_place(NULL, 0, 0).x));
     ANSWERS(fbd_model_track_place, is_nan(fbd_model_track_place(model, past, 0).curvature));
 }

@@ -222,6 +222,67 @@ static void a_rolling_disc_touches_its_line(void **unused)
     fbd_model_free(model);
 }
 
+static void connections_have_their_lines(void **unused)
+{
+    (void)unused;
+    fbd_model *model =
+        model_from("fbd: 1\n"
+                   "plane: horizontal\n"
+                   "ground:\n"
+                   "  polygons: {step: [[0, 0], [2, 0], [2, 1]]}\n"
+                   "bodies:\n"
+                   "  cam: {mass: 1 kg, inertia: 1 kg*m^2, motion: {pivot: {at: [5, 0]}}}\n"
+                   "  pin: {mass: 1 kg, motion: particle, initial: {x: 7 m}}\n"
+                   "  ball: {mass: 1 kg, motion: particle, initial: {x: -3 m}}\n"
+                   "couplings:\n"
+                   "  - slot: {between: [pin, cam], side: right, x: 2*cos(p), y: 2*sin(p), from: 0,"
+                   " to: 360 deg, closed: true}\n"
+                   "contacts: [{between: [ball, ground.step]}]\n"
+                   "simulate: {until: 1 s}\n");
+    double point[2];
+    fbd_path path = fbd_model_path(model, 0);
+    assert_true(path.closed && path.side == -1 && path.point_count > 2);
+    assert_true(fbd_model_path_point(model, 0, 0, point));
+    near_point(point, 2, 0); /* in the frame of the cam, by the length of the curve */
+    assert_true(fbd_model_path_point(model, 0, path.point_count / 4, point));
+    near_point(point, 0, 2);
+    assert_false(fbd_model_path_point(model, 0, path.point_count, point));
+    path = fbd_model_path(model, 1);
+    assert_true(path.closed && path.side == 0 && path.point_count == 3);
+    assert_true(fbd_model_path_point(model, 1, 2, point));
+    near_point(point, 2, 1);
+    near(fbd_model_scene(model).pressing, 9.81);
+    fbd_model_free(model);
+}
+
+static void a_rope_round_a_bollard_touches_it_twice(void **unused)
+{
+    (void)unused;
+    fbd_model *model = model_from(
+        "fbd: 1\n"
+        "ground: {points: {bollard: [0, 0]}}\n"
+        "bodies:\n"
+        "  left: {mass: 1 kg, motion: {slide: {along: 90 deg, through: [-0.1, -1]}}, forces: [gravity]}\n"
+        "  right: {mass: 1 kg, motion: {slide: {along: 90 deg, through: [0.1, -1]}}, forces: [gravity]}\n"
+        "couplings:\n"
+        "  - rope: {through: [left, ground.bollard, right], around: {on: ground.bollard, radius: 0.1 m,"
+        " static: 0.3}}\n"
+        "simulate: {until: 1 s}\n");
+    fbd_state *state = fbd_state_new(model);
+    fbd_view *view = fbd_view_new(state, NULL);
+    assert_non_null(view);
+    assert_false(fbd_view_coupling(view, 0).lined);
+    const fbd_coupling_end bollard = fbd_view_coupling_end(view, 0, 1);
+    assert_int_equal(bollard.place_count, 2);
+    near_point(bollard.places[0], -0.1, 0);
+    near_point(bollard.places[1], 0.1, 0);
+    for (size_t i = 0; i < fbd_view_force_count(view, 0); i++)
+        assert_int_equal(fbd_view_force(view, 0, i).slide, -1); /* no surface under the body */
+    fbd_view_free(view);
+    fbd_state_free(state);
+    fbd_model_free(model);
+}
+
 static void a_state_that_is_not_finite_has_no_view(void **unused)
 {
     (void)unused;
@@ -249,6 +310,8 @@ int main(void)
         cmocka_unit_test(a_track_is_a_curve_by_its_length),
         cmocka_unit_test(couplings_and_springs_have_their_ends),
         cmocka_unit_test(a_rolling_disc_touches_its_line),
+        cmocka_unit_test(connections_have_their_lines),
+        cmocka_unit_test(a_rope_round_a_bollard_touches_it_twice),
         cmocka_unit_test(a_state_that_is_not_finite_has_no_view),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
