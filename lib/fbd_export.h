@@ -213,7 +213,7 @@ typedef struct fbd_live_options {
 
 /* As fbd_result_html, with the library and the text of the model included: the page has sliders, an editor
  * and checkboxes, and repeats the run after every change. At most 2 MB. NULL with a note in `errors`:
- * `no-live` where the library was built without it, `cannot-read` for the data file of a table, and those of
+ * `no-live` where the library was built without it, `unknown-output`, `cannot-read` for the data file of a table, and those of
  * fbd_result_html. */
 FBD_API char *fbd_result_live_html(fbd_result *result, const fbd_live_options *options, fbd_errors *errors);
 
@@ -229,9 +229,12 @@ typedef struct fbd_fmu_options {
     const fbd_setting *settings; /* those that the model was read with: they become its start values */
     size_t setting_count;
     const fbd_options *run; /* NULL for the file's; without error bars and accuracy */
+    /* forces, moments and reactions that are outputs, by their names in the CSV with ledger, separated by commas; NULL:
+     * all are local variables, and there may be directional derivatives */
+    const char *outputs;
 } fbd_fmu_options;
 
-/* The FMU for co-simulation with that binary, as bytes of a zip archive, to be freed with fbd_free; *length
+/* The FMU for co-simulation, and for model exchange where that can be had (fbd_model_exchanges), with that binary, as bytes of a zip archive, to be freed with fbd_free; *length
  * is their number. NULL with notes in `errors`: those of wrong options (see fbd_simulation_new), of an
  * inadmissible start (see fbd_state_close), `cannot-read` for the data file of a table, `bad-call`, or memory
  * is out. */
