@@ -221,9 +221,10 @@ FBD_API char *fbd_result_live_html(fbd_result *result, const fbd_live_options *o
 
 /* A model as a Functional Mock-up Unit (fmi-standard.org): docs/fmi.md. */
 typedef struct fbd_fmu_options {
-    size_t size;                 /* sizeof(fbd_fmu_options), or 0 */
-    int version;                 /* of FMI: 3, or 2 for tools that do not support 3; 0 is 3 */
-    const char *library;         /* the binary to include, of this version of fbd, contained in fbd-run ... */
+    size_t size; /* sizeof(fbd_fmu_options), or 0 */
+    int version; /* of FMI: 3, or 2 for tools that do not support 3; 0 is 3 */
+    const char
+        *library; /* the binary to include, of this version of fbd, or its gzip, contained in fbd-run ... */
     size_t library_length;       /* ... and its length in bytes */
     const char *name;            /* of the FMU; NULL for that of the model file */
     const fbd_setting *settings; /* those that the model was read with: they become its start values */

@@ -118,7 +118,8 @@ static void add_binary(struct zip *zip, const struct package *package)
     struct text name = {0};
     const char *place = package->options->version == 2 ? "linux64" : FBD_FMI_PLATFORM;
     text_printf(&name, "binaries/%s/%s.so", place, package->name);
-    if (!name.failed) zip_add(zip, name.data, package->options->library, package->options->library_length);
+    if (!name.failed)
+        zip_add_gzip(zip, name.data, package->options->library, package->options->library_length);
     zip->failed |= name.failed;
     text_free(&name);
 }

@@ -77,7 +77,10 @@ def an_archive_has_its_files():
                                stdout=out, check=True)
         assert (Path(FOLDER.name) / "stdout").read_bytes() == again.read_bytes()
         with zipfile.ZipFile(again) as archive:
-            assert all(one.compress_type == zipfile.ZIP_STORED and one.extract_version <= 20 for one in archive.infolist())
+            assert archive.testzip() is None and all(one.extract_version <= 20 for one in archive.infolist())
+            deflated = [one for one in archive.infolist() if one.compress_type == zipfile.ZIP_DEFLATED]
+            assert [one.filename[:9] for one in deflated] == ["binaries/"]
+            assert deflated[0].compress_size < 0.6 * deflated[0].file_size
 
 
 def the_binary_shows_the_functions_of_the_standard_and_needs_the_C_library():
