@@ -441,8 +441,8 @@ static void no_function_is_forgotten(void **context)
     note("fbd_schema");
     size_t forgotten = 0;
     size_t functions = 0;
-    static const char *const headers[] = {"fbd.h", "fbd_study.h", "fbd_grade.h", "fbd_export.h",
-                                          "fbd_view.h", "fbd_exchange.h"};
+    static const char *const headers[] = {"fbd.h",        "fbd_study.h", "fbd_grade.h",
+                                          "fbd_export.h", "fbd_view.h",  "fbd_exchange.h"};
     for (size_t i = 0; i < sizeof headers / sizeof *headers; i++) {
         const size_t own = check_header(headers[i], &forgotten);
         assert_true(own > 10);
