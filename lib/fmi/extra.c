@@ -16,7 +16,7 @@ static int value_of_input(void *context, double t, const double *y, double *valu
     return 0;
 }
 
-fbd_model *extra_model(const fbd_model *model, double *values, fbd_errors *errors)
+fbd_model *extra_model(const fbd_model *model, const double *values, fbd_errors *errors)
 {
     size_t count = fbd_model_parameter_count(model), used = 0;
     fbd_callback *callbacks = calloc(count + 1, sizeof *callbacks);
@@ -26,7 +26,8 @@ fbd_model *extra_model(const fbd_model *model, double *values, fbd_errors *error
     }
     for (size_t i = 0; i < count; i++) {
         const fbd_parameter parameter = fbd_model_parameter(model, i);
-        if (parameter.input) callbacks[used++] = (fbd_callback){parameter.name, value_of_input, &values[i]};
+        if (parameter.input)
+            callbacks[used++] = (fbd_callback){parameter.name, value_of_input, (void *)&values[i]};
     }
     fbd_model *with = fbd_model_with_callbacks(model, callbacks, used, errors);
     free(callbacks);

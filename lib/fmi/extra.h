@@ -38,6 +38,6 @@ bool extras_choose(struct extras *extras, const char *names, fbd_errors *errors)
 
 /* A model in which the inputs are those numbers, indexed as parameters, at all times: they may change between two
  * calls. NULL with notes in `errors`. The numbers must outlive it. */
-fbd_model *extra_model(const fbd_model *model, double *values, fbd_errors *errors);
+fbd_model *extra_model(const fbd_model *model, const double *values, fbd_errors *errors);
 
 #endif
