@@ -30,8 +30,9 @@ bool fmu_take_version(const struct command_line *line, const char *text, int *ve
 static enum exit_code blame(fbd_errors *errors)
 {
     const fbd_error first = fbd_errors_get(errors, 0);
-    bool asked = first.id && (strcmp(first.id, "bad-option") == 0 || strcmp(first.id, "no-end-time") == 0 ||
-                              strcmp(first.id, "unknown-method") == 0);
+    bool asked =
+        first.id && (strcmp(first.id, "bad-option") == 0 || strcmp(first.id, "no-end-time") == 0 ||
+                     strcmp(first.id, "unknown-method") == 0 || strcmp(first.id, "unknown-output") == 0);
     return asked && first.line == 0 ? exit_usage : exit_failed;
 }
 
@@ -40,7 +41,8 @@ enum exit_code write_fmu(const fbd_model *model, const struct options *options, 
     fbd_fmu_options chosen = {.version = options->fmu_version,
                               .settings = options->settings,
                               .setting_count = options->setting_count,
-                              .run = &options->run};
+                              .run = &options->run,
+                              .outputs = options->fmu_outputs};
     size_t length;
     chosen.library = fmu_binary(&chosen.library_length);
     char *bytes = fbd_fmu(model, &chosen, &length, errors);

@@ -67,6 +67,7 @@ enum {
     option_live,
     option_fmu,
     option_fmu_version,
+    option_fmu_outputs,
     option_full,
     option_degrees,
     option_cut,
@@ -130,6 +131,7 @@ static const struct option long_options[] = {
     {"live", no_argument, NULL, option_live},
     {"fmu", required_argument, NULL, option_fmu},
     {"fmu-version", required_argument, NULL, option_fmu_version},
+    {"fmu-outputs", required_argument, NULL, option_fmu_outputs},
     {"full", no_argument, NULL, option_full},
     {"degrees", no_argument, NULL, option_degrees},
     {"cut", required_argument, NULL, option_cut},
@@ -290,6 +292,7 @@ static bool take_option(const struct command_line *unused, int option, void *con
     case option_fmu:
         options->fmu = optarg;
         return fmu_can_be_made(&line) && choose_action(options, action_fmu);
+    case option_fmu_outputs: options->fmu_outputs = optarg; return true;
     case option_fmu_version: return fmu_take_version(&line, optarg, &options->fmu_version);
     default: return take_drawing(options, option);
     }
@@ -430,6 +433,7 @@ static bool options_agree(const struct options *options)
     if (options->latex && options->action != action_equations)
         return usage("--latex goes with --equations", "");
     if (options->fmu_version && !options->fmu) return usage("--fmu-version goes with --fmu", "");
+    if (options->fmu_outputs && !options->fmu) return usage("--fmu-outputs goes with --fmu", "");
     if (options->live && !options->html) return usage("--live goes with --html", "");
     if (options->settle && !rests) return usage("--settle goes with --static", "");
     if (stands_still && !rests && !draws && options->action != action_check && options->json)

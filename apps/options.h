@@ -55,6 +55,7 @@ struct options {
     const char *example;          /* the name of action_example */
     const char *fmu;
     int fmu_version; /* 0 when not given */
+    const char *fmu_outputs;
     bool watch, live;
     const struct watched_run *watched; /* of --watch, or NULL */
     bool *json_written;                /* set when the JSON of a result has been written */

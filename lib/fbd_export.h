@@ -213,7 +213,7 @@ typedef struct fbd_live_options {
 
 /* As fbd_result_html, with the library and the text of the model included: the page has sliders, an editor
  * and checkboxes, and repeats the run after every change. At most 2 MB. NULL with a note in `errors`:
- * `no-live` where the library was built without it, `cannot-read` for the data file of a table, and those of
+ * `no-live` where the library was built without it, `unknown-output`, `cannot-read` for the data file of a table, and those of
  * fbd_result_html. */
 FBD_API char *fbd_result_live_html(fbd_result *result, const fbd_live_options *options, fbd_errors *errors);
 
@@ -221,17 +221,21 @@ FBD_API char *fbd_result_live_html(fbd_result *result, const fbd_live_options *o
 
 /* A model as a Functional Mock-up Unit (fmi-standard.org): docs/fmi.md. */
 typedef struct fbd_fmu_options {
-    size_t size;                 /* sizeof(fbd_fmu_options), or 0 */
-    int version;                 /* of FMI: 3, or 2 for tools that do not support 3; 0 is 3 */
-    const char *library;         /* the binary to include, of this version of fbd, contained in fbd-run ... */
+    size_t size; /* sizeof(fbd_fmu_options), or 0 */
+    int version; /* of FMI: 3, or 2 for tools that do not support 3; 0 is 3 */
+    const char
+        *library; /* the binary to include, of this version of fbd, or its gzip, contained in fbd-run ... */
     size_t library_length;       /* ... and its length in bytes */
     const char *name;            /* of the FMU; NULL for that of the model file */
     const fbd_setting *settings; /* those that the model was read with: they become its start values */
     size_t setting_count;
     const fbd_options *run; /* NULL for the file's; without error bars and accuracy */
+    /* forces, moments and reactions that are outputs, by their names in the CSV with ledger, separated by commas; NULL:
+     * all are local variables, and there may be directional derivatives */
+    const char *outputs;
 } fbd_fmu_options;
 
-/* The FMU for co-simulation with that binary, as bytes of a zip archive, to be freed with fbd_free; *length
+/* The FMU for co-simulation, and for model exchange where that can be had (fbd_model_exchanges), with that binary, as bytes of a zip archive, to be freed with fbd_free; *length
  * is their number. NULL with notes in `errors`: those of wrong options (see fbd_simulation_new), of an
  * inadmissible start (see fbd_state_close), `cannot-read` for the data file of a table, `bad-call`, or memory
  * is out. */

@@ -4,6 +4,7 @@
  * called in every step, and rows of sweeps, which come from any thread.
  */
 #include <fbd.h>
+#include <fbd_exchange.h>
 #include <fbd_export.h>
 #include <fbd_find.h>
 #include <fbd_grade.h>

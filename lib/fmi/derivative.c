@@ -86,7 +86,8 @@ static bool make(struct jacobian *jacobian, const struct plant *plant, const str
 enum instance_status derivative_get(struct instance *instance, const struct derivative_call *call)
 {
     struct plant *plant = instance->plant;
-    const char *why = why_not(plant, call);
+    const char *why =
+        instance->continuous ? "model exchange offers no derivatives here" : why_not(plant, call);
     if (why) return instance_fail(instance, call->function, why);
     if (!plant_update(plant)) return instance_fail(instance, call->function, plant->reason);
     struct jacobian jacobian = {0};

@@ -14,7 +14,13 @@ static void begin(const struct package *package, struct text *xml)
     xml_attribute(xml, "license", "GPL-3.0-or-later");
     xml_attribute(xml, "generationTool", "fbd " FBD_VERSION);
     xml_attribute(xml, "variableNamingConvention", "structured");
-    text_add(xml, ">\n  <CoSimulation");
+    text_add(xml, ">\n");
+    if (package->extras.exchanges) {
+        text_add(xml, "  <ModelExchange");
+        xml_attribute(xml, "modelIdentifier", package->name);
+        text_add(xml, " needsCompletedIntegratorStep=\"true\"/>\n");
+    }
+    text_add(xml, "  <CoSimulation");
     xml_attribute(xml, "modelIdentifier", package->name);
     text_add(xml, " canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\"");
     if (package->has_derivatives)
@@ -60,10 +66,36 @@ static void variable_of(const struct package *package, size_t index, struct text
     xml_attribute(xml, "variability", parameter || calculated ? "fixed" : "continuous");
     if (parameter) xml_attribute(xml, "initial", "exact");
     if (calculated || kind == fmi_output) xml_attribute(xml, "initial", "calculated");
-    if (variable->unit[0]) xml_attribute(xml, "unit", variable->unit);
+    xml_units(xml, variable->unit);
     if (integral > 0) text_printf(xml, " derivative=\"%zu\"", integral);
+    if (package->extras.exchanges && package_is_state(package, index)) text_add(xml, " reinit=\"true\"");
     if (parameter || kind == fmi_input) xml_number(xml, "start", variable->start);
     text_add(xml, "/>\n");
+}
+
+/* Indicators and rates of user states are of interest to solvers only. */
+static void extra(const struct package *package, size_t index, struct text *xml)
+{
+    const struct extra *extra = &package->extras.list[index];
+    text_add(xml, "    <Float64");
+    xml_attribute(xml, "name", extra->name);
+    text_printf(xml, " valueReference=\"%zu\"", package->variable_count + index);
+    xml_extra_description(xml, extra);
+    xml_attribute(xml, "causality", extra->output ? "output" : "local");
+    text_add(xml, " variability=\"continuous\" initial=\"calculated\"");
+    xml_units(xml, extra->unit);
+    if (extra->kind == extra_rate) text_printf(xml, " derivative=\"%zu\"", extra->integral);
+    text_add(xml, "/>\n");
+}
+
+static void extra_unknowns(const struct package *package, enum extra_kind kind, const char *element,
+                           struct text *xml)
+{
+    for (size_t i = 0; i < package->extras.count; i++) {
+        const struct extra *extra = &package->extras.list[i];
+        if (extra->kind == kind && (extra->output || kind != extra_force))
+            text_printf(xml, "    <%s valueReference=\"%zu\"/>\n", element, package->variable_count + i);
+    }
 }
 
 /* Coordinates and rates are states: they do not depend on inputs directly. */
@@ -72,7 +104,7 @@ static void unknown(const struct package *package, const char *element, size_t i
     fbd_variable_kind kind = package->variables[index].kind;
     text_printf(xml, "    <%s valueReference=\"%zu\"", element, index);
     if (kind == FBD_VARIABLE_COORDINATE || kind == FBD_VARIABLE_RATE) {
-        if (package->has_derivatives)
+        if (package_has_states(package))
             text_printf(xml, " dependencies=\"%zu\" dependenciesKind=\"constant\"", index);
         else
             text_add(xml, " dependencies=\"\"");
@@ -88,12 +120,17 @@ static void structure(const struct package *package, struct text *xml)
     for (size_t i = 0; i < count; i++)
         if (package_causality(package->model, &variables[i]) == fmi_output)
             unknown(package, "Output", i, xml);
+    extra_unknowns(package, extra_force, "Output", xml);
     for (size_t i = 0; i < count; i++)
-        if (package_integral(&variables[i], i) > 0 && package->has_derivatives)
+        if (package_integral(&variables[i], i) > 0 && package_has_states(package))
             unknown(package, "ContinuousStateDerivative", i, xml);
+    extra_unknowns(package, extra_rate, "ContinuousStateDerivative", xml);
     for (size_t i = 0; i < count; i++)
         if (package_is_initial_unknown(package, i))
             text_printf(xml, "    <InitialUnknown valueReference=\"%zu\"/>\n", i);
+    extra_unknowns(package, extra_force, "InitialUnknown", xml);
+    extra_unknowns(package, extra_rate, "InitialUnknown", xml);
+    extra_unknowns(package, extra_indicator, "EventIndicator", xml);
     text_add(xml, "  </ModelStructure>\n");
 }
 
@@ -104,6 +141,7 @@ void package_describe(const struct package *package, struct text *xml)
     experiment(package, xml);
     text_add(xml, "  <ModelVariables>\n");
     for (size_t i = 0; i < package->variable_count; i++) variable_of(package, i, xml);
+    for (size_t i = 0; i < package->extras.count; i++) extra(package, i, xml);
     text_add(xml, "  </ModelVariables>\n");
     structure(package, xml);
     text_add(xml, "</fmiModelDescription>\n");

@@ -15,7 +15,15 @@ static void begin(const struct package *package, struct text *xml)
     xml_attribute(xml, "license", "GPL-3.0-or-later");
     xml_attribute(xml, "generationTool", "fbd " FBD_VERSION);
     xml_attribute(xml, "variableNamingConvention", "structured");
-    text_add(xml, ">\n  <CoSimulation");
+    if (package->extras.exchanges)
+        text_printf(xml, " numberOfEventIndicators=\"%zu\"", package->extras.indicators);
+    text_add(xml, ">\n");
+    if (package->extras.exchanges) {
+        text_add(xml, "  <ModelExchange");
+        xml_attribute(xml, "modelIdentifier", package->name);
+        text_add(xml, " canNotUseMemoryManagementFunctions=\"true\"/>\n");
+    }
+    text_add(xml, "  <CoSimulation");
     xml_attribute(xml, "modelIdentifier", package->name);
     text_add(xml, " canHandleVariableCommunicationStepSize=\"true\""
                   " canNotUseMemoryManagementFunctions=\"true\" canGetAndSetFMUstate=\"true\""
@@ -62,19 +70,40 @@ static void variable_of(const struct package *package, size_t index, struct text
     xml_description(xml, package, index);
     causality(kind, xml);
     text_add(xml, "><Real");
-    if (variable->unit[0]) xml_attribute(xml, "unit", variable->unit);
+    xml_units(xml, variable->unit);
     if (kind == fmi_parameter || kind == fmi_input) xml_number(xml, "start", variable->start);
     if (integral > 0) text_printf(xml, " derivative=\"%zu\"", integral + 1);
+    if (package->extras.exchanges && package_is_state(package, index)) text_add(xml, " reinit=\"true\"");
     text_add(xml, "/></ScalarVariable>\n");
+}
+
+/* Event indicators are no variables here: they come last, and are left out. */
+static void extra(const struct package *package, size_t index, struct text *xml)
+{
+    const struct extra *extra = &package->extras.list[index];
+    if (extra->kind == extra_indicator) return;
+    text_add(xml, "    <ScalarVariable");
+    xml_attribute(xml, "name", extra->name);
+    text_printf(xml, " valueReference=\"%zu\"", package->variable_count + index);
+    xml_extra_description(xml, extra);
+    xml_attribute(xml, "causality", extra->output ? "output" : "local");
+    text_add(xml, " variability=\"continuous\" initial=\"calculated\"><Real");
+    xml_units(xml, extra->unit);
+    if (extra->kind == extra_rate) text_printf(xml, " derivative=\"%zu\"", extra->integral + 1);
+    text_add(xml, "/></ScalarVariable>\n");
+}
+
+static bool is_motion(fbd_variable_kind kind)
+{
+    return kind == FBD_VARIABLE_COORDINATE || kind == FBD_VARIABLE_RATE;
 }
 
 /* Coordinates and rates are states: they do not depend on inputs directly. */
 static void unknown(const struct package *package, size_t index, struct text *xml)
 {
-    fbd_variable_kind kind = package->variables[index].kind;
     text_printf(xml, "      <Unknown index=\"%zu\"", index + 1);
-    if (kind == FBD_VARIABLE_COORDINATE || kind == FBD_VARIABLE_RATE) {
-        if (package->has_derivatives)
+    if (index < package->variable_count && is_motion(package->variables[index].kind)) {
+        if (package_has_states(package))
             text_printf(xml, " dependencies=\"%zu\" dependenciesKind=\"constant\"", index + 1);
         else
             text_add(xml, " dependencies=\"\"");
@@ -82,14 +111,30 @@ static void unknown(const struct package *package, size_t index, struct text *xm
     text_add(xml, "/>\n");
 }
 
+static bool is_extra(const struct package *package, size_t index, enum extra_kind kind)
+{
+    const size_t count = package->variable_count;
+    if (index < count || package->extras.list[index - count].kind != kind) return false;
+    return kind != extra_force || package->extras.list[index - count].output;
+}
+
 static bool is_output(const struct package *package, size_t index)
 {
+    if (index >= package->variable_count) return is_extra(package, index, extra_force);
     return package_causality(package->model, &package->variables[index]) == fmi_output;
 }
 
 static bool is_derivative(const struct package *package, size_t index)
 {
+    if (index >= package->variable_count) return is_extra(package, index, extra_rate);
     return package_integral(&package->variables[index], index) > 0;
+}
+
+static bool is_initial(const struct package *package, size_t index)
+{
+    if (index >= package->variable_count)
+        return is_extra(package, index, extra_force) || is_extra(package, index, extra_rate);
+    return package_is_initial_unknown(package, index);
 }
 
 /* Append a list of the model structure, if it is not empty, with the dependencies of its variables. */
@@ -97,7 +142,7 @@ static void list(const struct package *package, const char *name,
                  bool belongs(const struct package *, size_t), bool depends, struct text *xml)
 {
     bool any = false;
-    for (size_t i = 0; i < package->variable_count; i++) {
+    for (size_t i = 0; i < package->variable_count + package->extras.count; i++) {
         if (!belongs(package, i)) continue;
         if (!any) text_printf(xml, "    <%s>\n", name);
         any = true;
@@ -113,8 +158,8 @@ static void structure(const struct package *package, struct text *xml)
 {
     text_add(xml, "  <ModelStructure>\n");
     list(package, "Outputs", is_output, true, xml);
-    if (package->has_derivatives) list(package, "Derivatives", is_derivative, true, xml);
-    list(package, "InitialUnknowns", package_is_initial_unknown, false, xml);
+    if (package_has_states(package)) list(package, "Derivatives", is_derivative, true, xml);
+    list(package, "InitialUnknowns", is_initial, false, xml);
     text_add(xml, "  </ModelStructure>\n");
 }
 
@@ -125,6 +170,7 @@ void package_describe_2(const struct package *package, struct text *xml)
     experiment(package, xml);
     text_add(xml, "  <ModelVariables>\n");
     for (size_t i = 0; i < package->variable_count; i++) variable_of(package, i, xml);
+    for (size_t i = 0; i < package->extras.count; i++) extra(package, i, xml);
     text_add(xml, "  </ModelVariables>\n");
     structure(package, xml);
     text_add(xml, "</fmiModelDescription>\n");

@@ -118,7 +118,8 @@ static void add_binary(struct zip *zip, const struct package *package)
     struct text name = {0};
     const char *place = package->options->version == 2 ? "linux64" : FBD_FMI_PLATFORM;
     text_printf(&name, "binaries/%s/%s.so", place, package->name);
-    if (!name.failed) zip_add(zip, name.data, package->options->library, package->options->library_length);
+    if (!name.failed)
+        zip_add_gzip(zip, name.data, package->options->library, package->options->library_length);
     zip->failed |= name.failed;
     text_free(&name);
 }
@@ -214,8 +215,11 @@ static bool list_variables(struct package *package, fbd_errors *errors)
     for (size_t i = 0; made && i < count; i++) package->variables[i] = fbd_model_variable(package->model, i);
     package->has_derivatives = made && package_has_derivatives(state);
     fbd_state_free(state);
+    made = made && extras_make(&package->extras, package->model);
     if (!made) diag_out_of_memory(errors);
-    return made;
+    const char *outputs = package->options->outputs;
+    if (outputs) package->has_derivatives = false; /* there are none of forces */
+    return made && extras_choose(&package->extras, outputs, errors);
 }
 
 static char *make(struct package *package, size_t *length, fbd_errors *errors)
@@ -233,6 +237,7 @@ static char *make(struct package *package, size_t *length, fbd_errors *errors)
     if (made) package_token(source, source_length, package->settings.data, package->token);
     char *bytes = made ? pack(package, length, errors) : NULL;
     free(package->variables);
+    extras_free(&package->extras);
     text_free(&package->settings);
     return bytes;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * FMI 2.0 for co-simulation. A step ended by an event of the file is discarded, as the standard requires: the
+ * FMI 2.0: life cycle, values, co-simulation. A step ended by an event of the file is discarded, as the standard requires: the
  * importer queries fmi2GetBooleanStatus whether the FMU has terminated, and fmi2GetRealStatus for the time.
  */
 #include <math.h>
@@ -83,9 +83,8 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
     instance->environment = functions ? functions->componentEnvironment : NULL;
     for (int k = 0; k < log_categories; k++) instance->logs[k] = logging != 0;
     char *folder = folder_of(resources);
-    if (type != fmi2CoSimulation)
-        instance_say(instance, instance_error, log_error, "this FMU is for co-simulation only");
-    bool opened = type == fmi2CoSimulation && instance_open(instance, name, folder, guid);
+    bool opened = type == fmi2CoSimulation ? instance_open(instance, name, folder, guid)
+                                           : instance_open_exchange(instance, name, folder, guid);
     free(folder);
     if (opened) return instance;
     free(instance);
@@ -129,7 +128,7 @@ fmi2Status fmi2ExitInitializationMode(fmi2Component component)
 
 fmi2Status fmi2Terminate(fmi2Component component)
 {
-    if (!instance_allows(component, phase_step, "fmi2Terminate")) return fmi2Error;
+    if (!instance_allows(component, phase_running, "fmi2Terminate")) return fmi2Error;
     struct instance *instance = component;
     instance->phase = phase_terminated;
     return fmi2OK;

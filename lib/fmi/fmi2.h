@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The C interface of FMI 2.0.5 for co-simulation, as declared in its specification (sections 2.1 and 4.2).
+ * The C interface of FMI 2.0.5, as declared in its specification (sections 2.1, 3.2 and 4.2).
  * With FBD_FMI_HEADERS the published headers are used instead.
  */
 #ifndef FBD_FMI_FMI2_H
@@ -91,6 +91,26 @@ FMI2 fmi2Status fmi2GetRealStatus(fmi2Component, fmi2StatusKind, fmi2Real *);
 FMI2 fmi2Status fmi2GetIntegerStatus(fmi2Component, fmi2StatusKind, fmi2Integer *);
 FMI2 fmi2Status fmi2GetBooleanStatus(fmi2Component, fmi2StatusKind, fmi2Boolean *);
 FMI2 fmi2Status fmi2GetStringStatus(fmi2Component, fmi2StatusKind, fmi2String *);
+
+/* ---- model exchange */
+
+typedef struct {
+    fmi2Boolean newDiscreteStatesNeeded, terminateSimulation, nominalsOfContinuousStatesChanged,
+        valuesOfContinuousStatesChanged, nextEventTimeDefined;
+    fmi2Real nextEventTime;
+} fmi2EventInfo;
+
+FMI2 fmi2Status fmi2EnterEventMode(fmi2Component);
+FMI2 fmi2Status fmi2NewDiscreteStates(fmi2Component, fmi2EventInfo *);
+FMI2 fmi2Status fmi2EnterContinuousTimeMode(fmi2Component);
+FMI2 fmi2Status fmi2CompletedIntegratorStep(fmi2Component, fmi2Boolean never_back, fmi2Boolean *event,
+                                            fmi2Boolean *terminate);
+FMI2 fmi2Status fmi2SetTime(fmi2Component, fmi2Real);
+FMI2 fmi2Status fmi2SetContinuousStates(fmi2Component, const fmi2Real[], size_t);
+FMI2 fmi2Status fmi2GetContinuousStates(fmi2Component, fmi2Real[], size_t);
+FMI2 fmi2Status fmi2GetDerivatives(fmi2Component, fmi2Real[], size_t);
+FMI2 fmi2Status fmi2GetEventIndicators(fmi2Component, fmi2Real[], size_t);
+FMI2 fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component, fmi2Real[], size_t);
 
 #endif
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * FMI 3.0 for co-simulation: life cycle of an instance, steps, saved states.
+ * FMI 3.0: life cycle of an instance, steps of co-simulation, saved states.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -33,22 +33,12 @@ static void log_message(const struct instance *instance, enum instance_status st
     if (callback) callback(instance->environment, (fmi3Status)status, category, message);
 }
 
-static const char other_kind[] = "this FMU is for co-simulation only";
+static const char other_kind[] = "this FMU is for co-simulation and model exchange only";
 
 static void refuse(fmi3LogMessageCallback callback, fmi3Boolean logging, fmi3InstanceEnvironment environment,
                    const char *why)
 {
     if (callback && logging) callback(environment, fmi3Error, log_category_names[log_error], why);
-}
-
-fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources,
-                                          fmi3Boolean visible, fmi3Boolean logging,
-                                          fmi3InstanceEnvironment environment,
-                                          fmi3LogMessageCallback callback)
-{
-    (void)name, (void)token, (void)resources, (void)visible;
-    refuse(callback, logging, environment, other_kind);
-    return NULL;
 }
 
 fmi3Instance fmi3InstantiateScheduledExecution(
@@ -61,14 +51,10 @@ fmi3Instance fmi3InstantiateScheduledExecution(
     return NULL;
 }
 
-fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources,
-                                         fmi3Boolean visible, fmi3Boolean logging, fmi3Boolean event_mode,
-                                         fmi3Boolean early_return, const fmi3ValueReference intermediate[],
-                                         size_t intermediate_count, fmi3InstanceEnvironment environment,
-                                         fmi3LogMessageCallback callback,
-                                         fmi3IntermediateUpdateCallback update)
+/* An instance that is not opened yet; NULL when memory is out. */
+static struct instance *make_instance(fmi3Boolean logging, fmi3InstanceEnvironment environment,
+                                      fmi3LogMessageCallback callback)
 {
-    (void)visible, (void)intermediate, (void)intermediate_count, (void)update;
     struct instance *instance = calloc(1, sizeof *instance);
     if (!instance) {
         refuse(callback, logging, environment, "out of memory");
@@ -77,10 +63,36 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
     instance->log = log_message;
     instance->callback = (void (*)(void))callback;
     instance->environment = environment;
-    instance->event_mode = event_mode;
-    instance->early_return = early_return;
     for (int k = 0; k < log_categories; k++) instance->logs[k] = logging;
-    if (instance_open(instance, name, resources, token)) return instance;
+    return instance;
+}
+
+fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources,
+                                          fmi3Boolean visible, fmi3Boolean logging,
+                                          fmi3InstanceEnvironment environment,
+                                          fmi3LogMessageCallback callback)
+{
+    (void)visible;
+    struct instance *instance = make_instance(logging, environment, callback);
+    if (instance && instance_open_exchange(instance, name, resources, token)) return instance;
+    free(instance);
+    return NULL;
+}
+
+fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources,
+                                         fmi3Boolean visible, fmi3Boolean logging, fmi3Boolean event_mode,
+                                         fmi3Boolean early_return, const fmi3ValueReference intermediate[],
+                                         size_t intermediate_count, fmi3InstanceEnvironment environment,
+                                         fmi3LogMessageCallback callback,
+                                         fmi3IntermediateUpdateCallback update)
+{
+    (void)visible, (void)intermediate, (void)intermediate_count, (void)update;
+    struct instance *instance = make_instance(logging, environment, callback);
+    if (instance) {
+        instance->event_mode = event_mode;
+        instance->early_return = early_return;
+    }
+    if (instance && instance_open(instance, name, resources, token)) return instance;
     free(instance);
     return NULL;
 }
@@ -109,25 +121,16 @@ fmi3Status fmi3ExitInitializationMode(fmi3Instance instance)
     return (fmi3Status)instance_begin(instance);
 }
 
-/* Change the phase, if the importer supports event mode. */
-static fmi3Status change(struct instance *instance, enum phase from, enum phase to, const char *function)
-{
-    if (!instance_allows(instance, from, function)) return fmi3Error;
-    if (!instance->event_mode)
-        return (fmi3Status)instance_fail(instance, function,
-                                         "the importer has said that it uses no Event Mode");
-    instance->phase = to;
-    return fmi3OK;
-}
-
 fmi3Status fmi3EnterEventMode(fmi3Instance instance)
 {
-    return change(instance, phase_step, phase_event, "fmi3EnterEventMode");
+    const struct instance *own = instance;
+    const enum phase from = own && own->continuous ? phase_continuous : phase_step;
+    return (fmi3Status)instance_change(instance, from, phase_event, "fmi3EnterEventMode");
 }
 
 fmi3Status fmi3EnterStepMode(fmi3Instance instance)
 {
-    return change(instance, phase_event, phase_step, "fmi3EnterStepMode");
+    return (fmi3Status)instance_change(instance, phase_event, phase_step, "fmi3EnterStepMode");
 }
 
 fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *again, fmi3Boolean *terminate,
@@ -135,14 +138,15 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *again, f
                                     fmi3Float64 *next)
 {
     if (!instance_allows(instance, phase_event, "fmi3UpdateDiscreteStates")) return fmi3Error;
-    struct instance *own = instance;
+    struct continuous_event event = {.next = NAN};
+    const fmi3Status status = (fmi3Status)instance_update(instance, "fmi3UpdateDiscreteStates", &event);
     if (again) *again = false;
-    if (terminate) *terminate = own->stopped;
+    if (terminate) *terminate = event.ends;
     if (nominals) *nominals = false;
-    if (values) *values = false;
-    if (has_next) *has_next = false;
-    if (next) *next = 0;
-    return fmi3OK;
+    if (values) *values = event.jumps;
+    if (has_next) *has_next = !isnan(event.next);
+    if (next) *next = isnan(event.next) ? 0 : event.next;
+    return status;
 }
 
 fmi3Status fmi3Terminate(fmi3Instance instance)

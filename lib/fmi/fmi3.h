@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The C interface of FMI 3.0.2 for co-simulation, as declared in its specification (sections 2.2.1 to 2.3.8
- * and 4.2). With FBD_FMI_HEADERS the published headers are used instead: a test compiles both.
+ * The C interface of FMI 3.0.2, as declared in its specification (sections 2.2.1 to 2.3.8, 3.2 and 4.2). With
+ * FBD_FMI_HEADERS the published headers are used instead: a test compiles both.
  */
 #ifndef FBD_FMI_FMI3_H
 #define FBD_FMI_FMI3_H

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * FMI 3.0: functions that a co-simulation without clocks, structural parameters and derivatives of outputs
- * does not need. An importer that follows the description does not call them; they return an error.
+ * FMI 3.0: functions that an FMU without clocks, structural parameters and derivatives of outputs does not
+ * need. An importer that follows the description does not call them; they return an error.
  */
 #include "fmi/fmi3.h"
 #include "fmi/instance.h"
@@ -27,11 +27,6 @@ fmi3Status fmi3ExitConfigurationMode(fmi3Instance instance)
 fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance instance)
 {
     return none(instance, "fmi3EvaluateDiscreteStates");
-}
-
-fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance instance)
-{
-    return none(instance, "fmi3EnterContinuousTimeMode");
 }
 
 fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance instance, fmi3ValueReference reference,
@@ -112,61 +107,6 @@ fmi3Status fmi3SetShiftFraction(fmi3Instance instance, const fmi3ValueReference 
 {
     (void)references, (void)count, (void)counters, (void)resolutions;
     return none(instance, "fmi3SetShiftFraction");
-}
-
-fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean never_back, fmi3Boolean *event,
-                                       fmi3Boolean *terminate)
-{
-    (void)never_back, (void)event, (void)terminate;
-    return none(instance, "fmi3CompletedIntegratorStep");
-}
-
-fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 time)
-{
-    (void)time;
-    return none(instance, "fmi3SetTime");
-}
-
-fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 states[], size_t count)
-{
-    (void)states, (void)count;
-    return none(instance, "fmi3SetContinuousStates");
-}
-
-fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, fmi3Float64 derivatives[], size_t count)
-{
-    (void)derivatives, (void)count;
-    return none(instance, "fmi3GetContinuousStateDerivatives");
-}
-
-fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 indicators[], size_t count)
-{
-    (void)indicators, (void)count;
-    return none(instance, "fmi3GetEventIndicators");
-}
-
-fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float64 states[], size_t count)
-{
-    (void)states, (void)count;
-    return none(instance, "fmi3GetContinuousStates");
-}
-
-fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance, fmi3Float64 nominals[], size_t count)
-{
-    (void)nominals, (void)count;
-    return none(instance, "fmi3GetNominalsOfContinuousStates");
-}
-
-fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *count)
-{
-    (void)count;
-    return none(instance, "fmi3GetNumberOfEventIndicators");
-}
-
-fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, size_t *count)
-{
-    (void)count;
-    return none(instance, "fmi3GetNumberOfContinuousStates");
 }
 
 fmi3Status fmi3ActivateModelPartition(fmi3Instance instance, fmi3ValueReference clock, fmi3Float64 time)

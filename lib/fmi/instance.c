@@ -61,6 +61,7 @@ static const char *phase_name(enum phase phase)
     case phase_initialization: return "Initialization Mode";
     case phase_step: return "Step Mode";
     case phase_event: return "Event Mode";
+    case phase_continuous: return "Continuous-Time Mode";
     default: return "Terminated";
     }
 }
@@ -134,8 +135,24 @@ bool instance_open(struct instance *instance, const char *name, const char *reso
     return false;
 }
 
+bool instance_open_exchange(struct instance *instance, const char *name, const char *resources,
+                            const char *token)
+{
+    if (!instance_open(instance, name, resources, token)) return false;
+    const struct extras *extras = &instance->plant->extras;
+    if (!extras->exchanges)
+        instance_say(instance, instance_error, log_error, "this FMU is for co-simulation only: %s",
+                     extras->why);
+    if (extras->exchanges) instance->continuous = continuous_new(instance->plant);
+    if (instance->continuous) return true;
+    instance_close(instance);
+    return false;
+}
+
 void instance_close(struct instance *instance)
 {
+    continuous_free(instance->continuous);
+    instance->continuous = NULL;
     plant_close(instance->plant);
     free(instance->name);
     instance->plant = NULL;
@@ -152,22 +169,32 @@ enum instance_status instance_initialize(struct instance *instance, double start
     if (!(tolerance >= 0 && tolerance < 1))
         return instance_fail(instance, "EnterInitializationMode", "the tolerance makes no sense");
     plant_begin(instance->plant, start, stop, tolerance);
+    if (instance->continuous) continuous_drop(instance->continuous);
     instance->stopped = false;
     instance->phase = phase_initialization;
     return instance_ok;
 }
 
+/* Make the motion consistent with the values that have been set. */
+static bool update(struct instance *instance, const char *function)
+{
+    struct continuous *continuous = instance->continuous;
+    if (continuous ? continuous_ready(continuous) : plant_update(instance->plant)) return true;
+    instance_fail(instance, function, continuous ? continuous->reason : instance->plant->reason);
+    return false;
+}
+
 enum instance_status instance_begin(struct instance *instance)
 {
-    if (!plant_update(instance->plant))
-        return instance_fail(instance, "ExitInitializationMode", instance->plant->reason);
-    instance->phase = instance->event_mode ? phase_event : phase_step;
+    if (!update(instance, "ExitInitializationMode")) return instance_error;
+    instance->phase = instance->event_mode || instance->continuous ? phase_event : phase_step;
     return instance_ok;
 }
 
 enum instance_status instance_reset(struct instance *instance)
 {
     plant_reset(instance->plant);
+    if (instance->continuous) continuous_drop(instance->continuous);
     instance->stopped = false;
     instance->phase = phase_instantiated;
     return instance_ok;
@@ -182,10 +209,14 @@ enum instance_status instance_get(struct instance *instance, const char *functio
     if (count > 0 && (!references || !values))
         return instance_fail(instance, function, "there is no place for values");
     for (size_t i = 0; i < count; i++)
-        if (references[i] >= plant->variable_count)
+        if (references[i] >= plant_variable_count(plant))
             return instance_fail(instance, function, "there is no such variable");
-    if (count > 0 && !plant_update(plant)) return instance_fail(instance, function, plant->reason);
-    for (size_t i = 0; i < count; i++) values[i] = plant_get(plant, references[i]);
+    if (count > 0 && !update(instance, function)) return instance_error;
+    for (size_t i = 0; i < count; i++) {
+        const bool exchanged = instance->continuous && !plant_is_given(plant, references[i]);
+        values[i] = exchanged ? continuous_value(instance->continuous, references[i])
+                              : plant_get(plant, references[i]);
+    }
     return instance_ok;
 }
 
@@ -193,7 +224,8 @@ static const char *why_not_set(const struct instance *instance, unsigned referen
 {
     const fbd_model *model = instance->plant->first;
     const fbd_variable variable = fbd_model_variable(model, reference);
-    if (!variable.name) return "there is no such variable";
+    if (reference >= plant_variable_count(instance->plant)) return "there is no such variable";
+    if (!variable.name) return "only parameters and inputs can be set";
     enum fmi_causality kind = package_causality(model, &variable);
     bool parameter = kind == fmi_parameter;
     if (!parameter && kind != fmi_input) return "only parameters and inputs can be set";
@@ -214,6 +246,10 @@ enum instance_status instance_set(struct instance *instance, const char *functio
     for (size_t i = 0; i < count; i++)
         plant_set(instance->plant, fbd_model_variable(instance->plant->first, references[i]).index,
                   values[i]);
+    /* Parameters belong to the start, which is made again; inputs do not. */
+    const bool starts = instance->phase & (phase_instantiated | phase_initialization);
+    if (instance->continuous && starts) continuous_drop(instance->continuous);
+    if (instance->continuous && !starts) continuous_touch(instance->continuous);
     return instance_ok;
 }
 

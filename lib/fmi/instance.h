@@ -11,6 +11,7 @@
 #ifndef FBD_FMI_INSTANCE_H
 #define FBD_FMI_INSTANCE_H
 
+#include "fmi/continuous.h"
 #include "fmi/plant.h"
 
 enum phase {
@@ -19,7 +20,8 @@ enum phase {
     phase_step = 4,
     phase_event = 8,
     phase_terminated = 16,
-    phase_running = phase_step | phase_event,
+    phase_continuous = 32, /* of model exchange, which has no phase_step */
+    phase_running = phase_step | phase_event | phase_continuous,
     phase_begun = phase_initialization | phase_running | phase_terminated,
     phase_any = phase_instantiated | phase_begun,
 };
@@ -35,6 +37,7 @@ typedef void instance_log(const struct instance *instance, enum instance_status 
 
 struct instance {
     struct plant *plant;
+    struct continuous *continuous; /* of model exchange; NULL in co-simulation */
     enum phase phase;
     bool logs[log_categories];
     bool event_mode, early_return; /* capabilities of the importer */
@@ -48,6 +51,10 @@ struct instance {
 /* Open the files in `resources`, if `token` is theirs. Returns false with messages; the instance has no plant
  * then. */
 bool instance_open(struct instance *instance, const char *name, const char *resources, const char *token);
+
+/* The same for model exchange. */
+bool instance_open_exchange(struct instance *instance, const char *name, const char *resources,
+                            const char *token);
 void instance_close(struct instance *instance);
 
 void instance_say(const struct instance *instance, enum instance_status status, enum log_category category,
@@ -79,6 +86,27 @@ struct instance_step {
     double reached;
 };
 enum instance_status instance_step(struct instance *instance, double t, double h, struct instance_step *step);
+
+/* ---- model exchange (exchange.c): calls of both versions, allowed in `phases` */
+
+enum instance_status instance_change(struct instance *instance, enum phase from, enum phase to,
+                                     const char *function);
+enum instance_status instance_set_time(struct instance *instance, const char *function, double t);
+enum instance_status instance_set_states(struct instance *instance, const char *function,
+                                         const double *states, size_t count);
+enum instance_status instance_get_states(struct instance *instance, const char *function, double *states,
+                                         size_t count);
+enum instance_status instance_get_derivatives(struct instance *instance, const char *function,
+                                              double *derivatives, size_t count);
+enum instance_status instance_get_indicators(struct instance *instance, const char *function,
+                                             double *indicators, size_t count);
+enum instance_status instance_get_nominals(struct instance *instance, const char *function, double *nominals,
+                                           size_t count);
+enum instance_status instance_get_counts(struct instance *instance, const char *function, size_t *states,
+                                         size_t *indicators);
+enum instance_status instance_complete(struct instance *instance, const char *function, bool *event);
+enum instance_status instance_update(struct instance *instance, const char *function,
+                                     struct continuous_event *event);
 
 /* ---- saved states (saved.c): bytes with a header that identifies them */
 

@@ -54,6 +54,34 @@ static int radians(const char *name)
     return strncmp(name, "rad", 3) == 0 ? 1 : strstr(name, "/rad") ? -1 : 0;
 }
 
+/* Angles, their rates and accelerations: the unit, and that in degrees. */
+static const char *const displays[][2] = {{"rad", "deg"}, {"rad/s", "deg/s"}, {"rad/s^2", "deg/s^2"}};
+
+const char *package_display_unit(const char *unit)
+{
+    for (size_t i = 0; i < sizeof displays / sizeof displays[0]; i++)
+        if (strcmp(displays[i][0], unit) == 0) return displays[i][1];
+    return NULL;
+}
+
+void xml_units(struct text *xml, const char *unit)
+{
+    const char *display = package_display_unit(unit);
+    if (unit[0]) xml_attribute(xml, "unit", unit);
+    if (display) xml_attribute(xml, "displayUnit", display);
+}
+
+static void write_display(struct text *xml, const char *unit)
+{
+    const double degrees = 57.29577951308232; /* in a radian */
+    const char *display = package_display_unit(unit);
+    if (!display) return;
+    text_add(xml, "<DisplayUnit");
+    xml_attribute(xml, "name", display);
+    xml_number(xml, "factor", degrees);
+    text_add(xml, "/>");
+}
+
 static void write_unit(struct text *xml, const char *name)
 {
     fbd_unit unit;
@@ -69,22 +97,29 @@ static void write_unit(struct text *xml, const char *name)
     exponent(xml, "s", unit.time);
     exponent(xml, "rad", radians(name));
     if (unit.factor != 1) xml_number(xml, "factor", unit.factor);
-    text_add(xml, "/></Unit>\n");
+    text_add(xml, "/>");
+    write_display(xml, name);
+    text_add(xml, "</Unit>\n");
+}
+
+static const char *unit_of(const struct package *package, size_t index)
+{
+    const size_t count = package->variable_count;
+    return index < count ? package->variables[index].unit : package->extras.list[index - count].unit;
 }
 
 static bool is_first(const struct package *package, size_t index)
 {
     for (size_t i = 0; i < index; i++)
-        if (strcmp(package->variables[i].unit, package->variables[index].unit) == 0) return false;
+        if (strcmp(unit_of(package, i), unit_of(package, index)) == 0) return false;
     return true;
 }
 
 void package_units(const struct package *package, struct text *xml)
 {
     text_add(xml, "  <UnitDefinitions>\n");
-    for (size_t i = 0; i < package->variable_count; i++)
-        if (package->variables[i].unit[0] && is_first(package, i))
-            write_unit(xml, package->variables[i].unit);
+    for (size_t i = 0; i < package->variable_count + package->extras.count; i++)
+        if (unit_of(package, i)[0] && is_first(package, i)) write_unit(xml, unit_of(package, i));
     text_add(xml, "  </UnitDefinitions>\n");
 }
 
@@ -113,6 +148,17 @@ bool package_has_derivatives(fbd_state *state)
     size_t count = fbd_model_variable_count(model);
     bool has_points = fbd_model_variable(model, count - 1).kind == FBD_VARIABLE_POINT;
     return !has_points && fbd_state_derivatives(state, NULL, 0, NULL, NULL);
+}
+
+bool package_has_states(const struct package *package)
+{
+    return package->has_derivatives || package->extras.exchanges;
+}
+
+bool package_is_state(const struct package *package, size_t index)
+{
+    const fbd_variable_kind kind = package->variables[index].kind;
+    return kind == FBD_VARIABLE_COORDINATE || kind == FBD_VARIABLE_RATE || kind == FBD_VARIABLE_STATE;
 }
 
 size_t package_integral(const fbd_variable *variable, size_t index)
@@ -170,6 +216,14 @@ void xml_description(struct text *xml, const struct package *package, size_t ind
     case FBD_VARIABLE_POINT: text_add(&text, "of a point, in the world"); break;
     }
     take_attribute(xml, "description", &text);
+}
+
+void xml_extra_description(struct text *xml, const struct extra *extra)
+{
+    static const char *const words[] = {[extra_force] = "force, moment or reaction",
+                                        [extra_rate] = "rate of change of a state of the model file",
+                                        [extra_indicator] = "event indicator: negative past an event"};
+    xml_attribute(xml, "description", words[extra->kind]);
 }
 
 /* ---- the token */

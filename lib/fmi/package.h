@@ -17,6 +17,7 @@
 #include "fbd.h"
 #include "fbd_export.h"
 #include "fbd_view.h"
+#include "fmi/extra.h"
 
 enum { package_name_size = 64, package_token_size = 40 };
 
@@ -35,6 +36,7 @@ struct package {
     fbd_variable *variables;
     size_t variable_count;
     bool has_derivatives;
+    struct extras extras; /* variables after those */
     struct text settings;
     char name[package_name_size];   /* an identifier */
     char token[package_token_size]; /* identifies the model and settings */
@@ -89,6 +91,18 @@ size_t package_integral(const fbd_variable *variable, size_t index);
 
 /* Append the name of a variable, escaped, as an attribute. */
 void xml_variable_name(struct text *xml, const fbd_variable *variable);
+
+/* Are states and their derivatives declared: for directional derivatives, or for model exchange? Is the variable such a
+ * state? */
+bool package_has_states(const struct package *package);
+bool package_is_state(const struct package *package, size_t index);
+
+/* The unit in which a quantity of this unit is displayed, an angle in degrees; NULL if it is the same. */
+const char *package_display_unit(const char *unit);
+
+/* Append the name, unit and display unit of an extra variable, and of any variable its unit; escaped, as attributes. */
+void xml_units(struct text *xml, const char *unit);
+void xml_extra_description(struct text *xml, const struct extra *extra);
 
 /* Append the units of all variables, each once. */
 void package_units(const struct package *package, struct text *xml);

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/diag.h"
-#include "base/file.h"
 #include "base/format.h"
 #include "fbd_view.h"
 
@@ -61,65 +60,34 @@ static fbd_setting *list_settings(const struct plant *plant, struct arena *arena
     return list;
 }
 
-/* Compile the model with the present values. */
-static fbd_model *make_model(struct plant *plant)
+fbd_model *plant_model(const struct plant *plant, fbd_errors *errors)
 {
     struct arena arena = {0};
     size_t count;
-    fbd_errors *errors = fbd_errors_new();
-    const fbd_setting *settings = errors ? list_settings(plant, &arena, &count) : NULL;
+    const fbd_setting *settings = list_settings(plant, &arena, &count);
     fbd_model *model = NULL;
-    if (settings) model = fbd_model_parse(plant->text, plant->length, plant->path, settings, count, errors);
-    if (!settings)
-        no_memory(plant);
-    else if (!model)
-        fail_by(plant, errors);
+    if (settings)
+        model = fbd_model_parse(plant->text, plant->length, plant->path, settings, count, errors);
+    else
+        diag_out_of_memory(errors);
     arena_free(&arena);
-    fbd_errors_free(errors);
     return model;
 }
 
+/* Compile the model with the present values. */
+static bool make_model(struct plant *plant)
+{
+    fbd_errors *errors = fbd_errors_new();
+    if (!errors) return no_memory(plant);
+    plant->model = plant_model(plant, errors);
+    if (!plant->model) fail_by(plant, errors);
+    plant->forces = plant->model ? fbd_force_columns_new(plant->model) : NULL;
+    if (plant->model && !plant->forces) no_memory(plant);
+    fbd_errors_free(errors);
+    return plant->forces != NULL;
+}
+
 /* ---- opening */
-
-/* A zero-terminated copy of `content`, which is freed. */
-static char *terminate(char *content, size_t length, fbd_errors *errors)
-{
-    char *text = content ? malloc(length + 1) : NULL;
-    if (content && !text) diag_out_of_memory(errors);
-    if (text) {
-        memcpy(text, content, length);
-        text[length] = '\0';
-    }
-    free(content);
-    return text;
-}
-
-/* Read a file of the resources; text and path are to be freed. */
-static char *read_resource(const char *resources, const char *name, size_t *length, char **path,
-                           fbd_errors *errors)
-{
-    struct text text = {0};
-    text_printf(&text, "%s/%s", resources, name);
-    if (text.failed) diag_out_of_memory(errors);
-    *path = text.data;
-    return text.failed ? NULL : file_text(text.data, length, errors);
-}
-
-static bool read_files(struct plant *plant, const char *resources, fbd_errors *errors)
-{
-    size_t length = 0;
-    char *path = NULL, *settings = NULL;
-    plant->text = read_resource(resources, "model.yaml", &plant->length, &plant->path, errors);
-    if (plant->text) settings = read_resource(resources, "settings", &length, &path, errors);
-    plant->settings_text = terminate(settings, length, errors);
-    free(path);
-    if (!plant->settings_text) return false;
-    package_token(plant->text, plant->length, plant->settings_text, plant->token);
-    if (package_settings_read(&plant->settings, plant->settings_text, resources)) return true;
-    diag_add(errors, FBD_ERROR, "cannot-read", (struct pos){0, 0}, NULL, "`%s/settings` is not understood",
-             resources);
-    return false;
-}
 
 static bool open_model(struct plant *plant, fbd_errors *errors)
 {
@@ -128,13 +96,17 @@ static bool open_model(struct plant *plant, fbd_errors *errors)
     if (!plant->first) return false;
     size_t count = plant->parameter_count = fbd_model_parameter_count(plant->first);
     plant->variable_count = fbd_model_variable_count(plant->first);
-    plant->values = calloc(2 * count + plant->variable_count, sizeof *plant->values);
-    plant->base.values = plant->values + count;
-    plant->shown = plant->base.values + count;
+    if (!extras_make(&plant->extras, plant->first)) {
+        diag_out_of_memory(errors);
+        return false;
+    }
+    plant->values = calloc(2 * count + plant_variable_count(plant), sizeof *plant->values);
     if (!plant->values) {
         diag_out_of_memory(errors);
         return false;
     }
+    plant->base.values = plant->values + count;
+    plant->shown = plant->base.values + count;
     plant_reset(plant);
     return true;
 }
@@ -142,7 +114,7 @@ static bool open_model(struct plant *plant, fbd_errors *errors)
 struct plant *plant_open(const char *resources, fbd_errors *errors)
 {
     struct plant *plant = calloc(1, sizeof *plant);
-    if (plant && read_files(plant, resources, errors) && open_model(plant, errors)) return plant;
+    if (plant && plant_read_files(plant, resources, errors) && open_model(plant, errors)) return plant;
     if (!plant) diag_out_of_memory(errors);
     plant_close(plant);
     return NULL;
@@ -153,8 +125,10 @@ static void drop_run(struct plant *plant)
 {
     fbd_state_free(plant->state);
     fbd_simulation_free(plant->simulation);
+    fbd_force_columns_free(plant->forces);
     fbd_model_free(plant->model);
     plant->state = NULL;
+    plant->forces = NULL;
     plant->is_shown = false;
     plant->simulation = NULL;
     plant->model = NULL;
@@ -164,6 +138,7 @@ void plant_close(struct plant *plant)
 {
     if (!plant) return;
     drop_run(plant);
+    extras_free(&plant->extras);
     fbd_model_free(plant->first);
     package_settings_free(&plant->settings);
     free(plant->base.numbers);
@@ -203,7 +178,7 @@ void plant_set(struct plant *plant, size_t parameter, double value)
 
 /* ---- the start */
 
-static fbd_options options_of(const struct plant *plant)
+fbd_options plant_options(const struct plant *plant)
 {
     fbd_options options = plant->settings.run;
     options.until = plant->base.until;
@@ -246,7 +221,7 @@ static fbd_state *state_of_base(struct plant *plant)
 
 static bool start_simulation(struct plant *plant)
 {
-    fbd_options options = options_of(plant);
+    fbd_options options = plant_options(plant);
     fbd_errors *errors = fbd_errors_new();
     if (!errors) return no_memory(plant);
     bool plain = plant->base.of_file && plant->start == 0;
@@ -293,8 +268,7 @@ static bool look(struct plant *plant, double t)
 static bool make_run(struct plant *plant)
 {
     drop_run(plant);
-    plant->model = make_model(plant);
-    if (!plant->model || !start_simulation(plant)) return false;
+    if (!make_model(plant) || !start_simulation(plant)) return false;
     while (reached(plant) < plant->t && fbd_simulation_outcome(plant->simulation) == FBD_GOING)
         fbd_simulation_advance(plant->simulation);
     if (reached(plant) < plant->t || (has_failed(plant) && reached(plant) <= plant->t))
@@ -389,14 +363,25 @@ enum plant_step plant_step(struct plant *plant, double target, bool pause)
     }
 }
 
+bool plant_is_given(const struct plant *plant, size_t index)
+{
+    const fbd_variable variable = fbd_model_variable(plant->first, index);
+    if (!variable.name) return false;
+    enum fmi_causality kind = package_causality(plant->first, &variable);
+    return kind == fmi_parameter || kind == fmi_input;
+}
+
 /* A parameter or input has the value that was set; one defined by others has that of the model. */
 double plant_get(struct plant *plant, size_t index)
 {
     const fbd_variable variable = fbd_model_variable(plant->first, index);
-    if (!variable.name) return NAN;
-    enum fmi_causality kind = package_causality(plant->first, &variable);
-    if (kind == fmi_parameter || kind == fmi_input) return plant->values[variable.index];
-    if (!plant->is_shown) fbd_state_variables(plant->state, plant->shown, plant->variable_count);
+    const size_t known = plant->variable_count + fbd_force_columns_count(plant->forces);
+    if (index >= known) return NAN;
+    if (plant_is_given(plant, index)) return plant->values[variable.index];
+    if (!plant->is_shown) {
+        fbd_state_variables(plant->state, plant->shown, plant->variable_count);
+        fbd_force_columns_values(plant->forces, plant->state, plant->shown + plant->variable_count);
+    }
     plant->is_shown = true;
     return plant->shown[index];
 }

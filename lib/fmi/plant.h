@@ -13,6 +13,7 @@
 #ifndef FBD_FMI_PLANT_H
 #define FBD_FMI_PLANT_H
 
+#include "fmi/extra.h"
 #include "fmi/package.h"
 
 enum plant_step {
@@ -35,7 +36,8 @@ struct plant {
     char *text, *path, *settings_text;
     size_t length;
     struct package_settings settings;
-    fbd_model *first; /* by the file and its settings only: source of the variables */
+    fbd_model *first;     /* by the file and its settings only: source of the variables */
+    struct extras extras; /* of it: variables after those */
     size_t variable_count;
     size_t parameter_count; /* number of parameters and inputs */
     double *values;         /* present values */
@@ -48,16 +50,20 @@ struct plant {
     struct plant_base base;
     fbd_model *model; /* with the values of the base; NULL if not compiled yet */
     fbd_simulation *simulation;
-    fbd_state *state;   /* at t */
-    double *shown;      /* variable_count: values of all variables in the state ... */
-    bool is_shown;      /* ... if they have been computed */
-    const char *reason; /* reason of a failure */
+    fbd_state *state;          /* at t */
+    fbd_force_columns *forces; /* of the model */
+    double *shown;             /* variable_count, then the forces: values of all variables in the state ... */
+    bool is_shown;             /* ... if they have been computed */
+    const char *reason;        /* reason of a failure */
     char own_reason[400];
 };
 
 /* Open the folder `resources` of an unpacked FMU, before its start. NULL with notes in `errors`. */
 struct plant *plant_open(const char *resources, fbd_errors *errors);
 void plant_close(struct plant *plant);
+
+/* A part of plant_open: text and settings (plant_files.c). */
+bool plant_read_files(struct plant *plant, const char *resources, fbd_errors *errors);
 
 /* Return to the state after plant_open. */
 void plant_reset(struct plant *plant);
@@ -71,7 +77,20 @@ void plant_begin(struct plant *plant, double start, double stop, double toleranc
 /* Make model, simulation and state consistent with t and the present values. Returns false with a reason. */
 bool plant_update(struct plant *plant);
 
-/* The value of variable `index` after plant_update; NAN past the last one. */
+/* The options of a run with these settings; and a model with the present values, NULL with notes in `errors`. */
+fbd_options plant_options(const struct plant *plant);
+fbd_model *plant_model(const struct plant *plant, fbd_errors *errors);
+
+/* Is the variable a parameter or an input, whose value is set? */
+bool plant_is_given(const struct plant *plant, size_t index);
+
+/* The number of all variables. */
+static inline size_t plant_variable_count(const struct plant *plant)
+{
+    return plant->variable_count + plant->extras.count;
+}
+
+/* The value of variable `index` after plant_update; NAN past the last one, and of one for model exchange only. */
 double plant_get(struct plant *plant, size_t index);
 
 /* Advance to `target`; with `pause` at most to the first event after t. */

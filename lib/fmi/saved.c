@@ -36,8 +36,11 @@ static bool is_one(const struct saved_head *head, size_t size)
            (size - sizeof *head) % sizeof(double) == 0;
 }
 
+static const char of_importer[] = "in model exchange the importer holds the state";
+
 enum instance_status saved_get(struct instance *instance, struct saved **saved)
 {
+    if (instance->continuous) return instance_fail(instance, "GetFMUState", of_importer);
     const struct plant *plant = instance->plant;
     size_t count = plant_save(plant, NULL);
     struct saved *new = calloc(1, sizeof *new + count * sizeof(double));
@@ -64,6 +67,7 @@ enum instance_status saved_set(struct instance *instance, const struct saved *sa
 {
     const char *function = "SetFMUState";
     struct plant *plant = instance->plant;
+    if (instance->continuous) return instance_fail(instance, function, of_importer);
     if (!saved || memcmp(saved->head.magic, magic, sizeof magic) != 0)
         return instance_fail(instance, function, "that is no saved state");
     if (memcmp(saved->head.token, plant->token, sizeof saved->head.token) != 0)

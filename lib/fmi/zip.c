@@ -24,42 +24,77 @@ static void put(struct text *text, uint32_t number, int bytes)
     }
 }
 
-/* Append the common part of a file header and a directory entry: version 1.0, names in UTF-8, stored,
+struct entry {
+    const char *name, *bytes;
+    size_t length;  /* of the bytes */
+    uint32_t whole; /* of the file */
+    uint32_t crc;   /* of the file */
+    bool deflated;
+};
+
+/* Append the common part of a file header and a directory entry: version 1.0, for deflated files 2.0, names in UTF-8,
  * midnight of 1 January 1980. */
-static void put_common(struct text *text, uint32_t crc, size_t length, size_t name_length)
+static void put_common(struct text *text, const struct entry *entry)
 {
-    put(text, 10, 2);
+    put(text, entry->deflated ? 20 : 10, 2);
     put(text, 0x0800, 2);
-    put(text, 0, 2);
+    put(text, entry->deflated ? 8 : 0, 2);
     put(text, 0, 2);
     put(text, 1 << 5 | 1, 2);
-    put(text, crc, 4);
-    put(text, (uint32_t)length, 4);
-    put(text, (uint32_t)length, 4);
-    put(text, (uint32_t)name_length, 2);
+    put(text, entry->crc, 4);
+    put(text, (uint32_t)entry->length, 4);
+    put(text, entry->whole, 4);
+    put(text, (uint32_t)strlen(entry->name), 2);
     put(text, 0, 2);
 }
 
-void zip_add(struct zip *zip, const char *name, const char *bytes, size_t length)
+static void add(struct zip *zip, const struct entry *entry)
 {
-    size_t start = zip->files.length, name_length = strlen(name);
-    uint32_t crc = checksum(bytes, length);
-    if (length > UINT32_MAX / 2 || start > UINT32_MAX / 2 || zip->count == UINT16_MAX) zip->failed = true;
+    size_t start = zip->files.length;
+    if (entry->length > UINT32_MAX / 2 || start > UINT32_MAX / 2 || zip->count == UINT16_MAX)
+        zip->failed = true;
     if (zip->failed) return;
     put(&zip->files, 0x04034B50, 4);
-    put_common(&zip->files, crc, length, name_length);
-    text_add(&zip->files, name);
-    text_add_bytes(&zip->files, bytes, length);
+    put_common(&zip->files, entry);
+    text_add(&zip->files, entry->name);
+    text_add_bytes(&zip->files, entry->bytes, entry->length);
     put(&zip->directory, 0x02014B50, 4);
-    put(&zip->directory, 10, 2);
-    put_common(&zip->directory, crc, length, name_length);
+    put(&zip->directory, entry->deflated ? 20 : 10, 2);
+    put_common(&zip->directory, entry);
     put(&zip->directory, 0, 2); /* no comment, first disk, no attributes */
     put(&zip->directory, 0, 2);
     put(&zip->directory, 0, 2);
     put(&zip->directory, 0, 4);
     put(&zip->directory, (uint32_t)start, 4);
-    text_add(&zip->directory, name);
+    text_add(&zip->directory, entry->name);
     zip->count++;
+}
+
+void zip_add(struct zip *zip, const char *name, const char *bytes, size_t length)
+{
+    add(zip, &(struct entry){name, bytes, length, (uint32_t)length, checksum(bytes, length), false});
+}
+
+/* A number of four bytes, little endian. */
+static uint32_t number_at(const char *bytes)
+{
+    uint32_t number = 0;
+    for (int i = 0; i < 4; i++) number |= (uint32_t)(unsigned char)bytes[i] << 8 * i;
+    return number;
+}
+
+/* Ten bytes of a header without optional fields, the deflated file, its checksum and its length. */
+void zip_add_gzip(struct zip *zip, const char *name, const char *bytes, size_t length)
+{
+    enum { header = 10, trailer = 8 };
+    static const char start[] = {'\x1f', '\x8b', 8, 0};
+    if (length < header + trailer || memcmp(bytes, start, sizeof start) != 0) {
+        zip_add(zip, name, bytes, length);
+        return;
+    }
+    const char *end = bytes + length - trailer;
+    add(zip, &(struct entry){name, bytes + header, length - header - trailer, number_at(end + 4),
+                             number_at(end), true});
 }
 
 char *zip_finish(struct zip *zip, size_t *length)

@@ -358,9 +358,10 @@ class Model:
         return text
 
     def fmu(self, path: Union[str, "os.PathLike[str]"], *, version: int = 3, until: Time = None,
-            tolerance: Optional[float] = None, step: Time = None, method: Optional[str] = None, structure: bool = True) -> None:
-        """Write the model as a Functional Mock-up Unit (docs/fmi.md), of FMI 3.0 or 2.0. :class:`fbd.Error` with the id
-        `no-fmu` where the module was built without the binary for it."""
+            tolerance: Optional[float] = None, step: Time = None, method: Optional[str] = None, structure: bool = True,
+            outputs: Sequence[str] = ()) -> None:
+        """Write the model as a Functional Mock-up Unit (docs/fmi.md), of FMI 3.0 or 2.0. `outputs` are the forces, moments
+        and reactions that are outputs of it, by their names in the CSV with ledger. :class:`fbd.Error` with the id `no-fmu` where the module was built without the binary for it."""
         self._read_again()
         library = fmu_library()
         settings, count, kept = settings_of(self._parameters)
@@ -368,7 +369,8 @@ class Model:
                                     step=self._seconds(step, "step"), method=method, structure=structure)
         data, length = ffi.from_buffer(library), ffi.new("size_t *")
         stem = ffi.new("char[]", os.fsencode(os.path.splitext(os.path.basename(self._name))[0]))
-        chosen = ffi.new("fbd_fmu_options *", {"version": whole(version, "the version", 3), "library": data, "name": stem,
+        names = ffi.new("char[]", ",".join(outputs).encode()) if outputs else ffi.NULL
+        chosen = ffi.new("fbd_fmu_options *", {"outputs": names, "version": whole(version, "the version", 3), "library": data, "name": stem,
                                                "library_length": len(library), "settings": settings,
                                                "setting_count": count, "run": options})
         archive = owned(checked(lib.fbd_fmu, self._model, chosen, length), lib.fbd_free)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An importer of FMUs for co-simulation, FMI 3.0 and 2.0, by ctypes: what the tests drive FMUs with.
+"""An importer of FMUs, FMI 3.0 and 2.0, by ctypes: what the tests drive FMUs with.
 
 `Fmu` is an unpacked FMU with its description, `fmu.start(...)` an instance. Instances of both versions have the same
 methods; each answers the status of the standard where nothing else is asked for."""
@@ -28,6 +28,7 @@ class Variable:
         self.variability = element.get("variability")
         self.initial = element.get("initial")
         self.unit = attributes.get("unit", "")
+        self.display = attributes.get("displayUnit", "")
         self.start = attributes.get("start")
         self.derivative = attributes.get("derivative")
         self.description = element.get("description", "")
@@ -64,7 +65,9 @@ class Fmu:
     def references(self, names):
         return (c.c_uint32 * len(names))(*[self.variables[name].reference for name in names])
 
-    def start(self, **arguments):
+    def start(self, exchange=False, **arguments):
+        if exchange:
+            arguments |= {"function": "InstantiateModelExchange"} if self.version == 3 else {"kind": 0}
         return (Instance3 if self.version == 3 else Instance2)(self, **arguments)
 
     def open(self, parameters=None, tolerance=None, start=0.0, stop=None, **arguments):
@@ -223,6 +226,10 @@ class Functions2(c.Structure):
                 ("environment", c.c_void_p)]
 
 
+class EventInfo2(c.Structure):
+    _fields_ = [(name, c.c_int) for name in ("again", "terminate", "nominals", "values", "has_next")] + [("next", c.c_double)]
+
+
 class Instance2(Instance):
     p, state_name, back_name = "fmi2", "FMUstate", "DeSerializeFMUstate"
 
@@ -269,6 +276,13 @@ class Instance2(Instance):
             assert self.call("GetRealStatus", 2, c.byref(reached)) == OK
             self.t = reached.value
         return status, False, bool(terminated.value), False
+
+    def new_states(self):
+        """As Instance3.update."""
+        info = EventInfo2()
+        status = self.call("NewDiscreteStates", c.byref(info))
+        flags = (info.again, info.terminate, info.nominals, info.values, info.has_next)
+        return (status, *map(bool, flags), info.next)
 
     def derivative(self, unknowns, knowns, seed):
         answer = (c.c_double * len(unknowns))()

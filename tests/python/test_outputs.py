@@ -45,11 +45,14 @@ def test_a_scene_becomes_a_c_program():
 def test_a_scene_becomes_an_fmu(tmp_path):
     model = fbd.Model(MODELS / "forcing/pushed_oscillator.yaml")
     try:
-        model.fmu(tmp_path / "pushed.fmu", version=2)
+        model.fmu(tmp_path / "pushed.fmu", version=2, outputs=["block.spring"])
     except fbd.Error as error:
         assert error.id == "no-fmu"
         pytest.skip(error.message)
-    names = zipfile.ZipFile(tmp_path / "pushed.fmu").namelist()
+    archive = zipfile.ZipFile(tmp_path / "pushed.fmu")
+    lines = archive.read("modelDescription.xml").decode().splitlines()
+    assert [line for line in lines if 'name="block.spring"' in line and 'causality="output"' in line]
+    names = archive.namelist()
     assert "modelDescription.xml" in names and "resources/model.yaml" in names
 
 

@@ -67,6 +67,9 @@ void methods_and_simplifications(void **context);
 void grades(void **context);
 void a_key_without_an_answer(void **context);
 
+/* bad_calls_exchange.c */
+void exchanges(void **context);
+
 /* bad_calls_contents.c */
 void contents(void **context);
 

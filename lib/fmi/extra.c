@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fmi/extra.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/diag.h"
+#include "base/format.h"
+
+/* ---- inputs that change without a new compilation */
+
+static int value_of_input(void *context, double t, const double *y, double *value)
+{
+    (void)t, (void)y;
+    *value = *(const double *)context;
+    return 0;
+}
+
+fbd_model *extra_model(const fbd_model *model, const double *values, fbd_errors *errors)
+{
+    size_t count = fbd_model_parameter_count(model), used = 0;
+    fbd_callback *callbacks = calloc(count + 1, sizeof *callbacks);
+    if (!callbacks) {
+        diag_out_of_memory(errors);
+        return NULL;
+    }
+    for (size_t i = 0; i < count; i++) {
+        const fbd_parameter parameter = fbd_model_parameter(model, i);
+        if (parameter.input)
+            callbacks[used++] = (fbd_callback){parameter.name, value_of_input, (void *)&values[i]};
+    }
+    fbd_model *with = fbd_model_with_callbacks(model, callbacks, used, errors);
+    free(callbacks);
+    return with;
+}
+
+/* ---- the list */
+
+static void take_reason(struct extras *extras, fbd_errors *errors)
+{
+    const fbd_error *first = diag_get(errors, 0);
+    for (size_t i = 0; first && first->severity == FBD_WARNING; i++) first = diag_get(errors, i);
+    format_into(extras->why, sizeof extras->why, "%s", first ? first->message : "out of memory");
+}
+
+/* Count the indicators by a start, in a model as instances use it. */
+static bool count_indicators(struct extras *extras, const fbd_model *model, double *values,
+                             fbd_errors *errors)
+{
+    const fbd_options options = {.size = sizeof options, .until = 1};
+    fbd_model *with = extra_model(model, values, errors);
+    fbd_state *state = with ? fbd_state_new(with) : NULL;
+    fbd_exchange *exchange = state ? fbd_exchange_new(state, &options, errors) : NULL;
+    if (exchange) extras->indicators = fbd_exchange_indicator_count(exchange);
+    const bool made = exchange != NULL;
+    fbd_exchange_free(exchange);
+    fbd_state_free(state);
+    fbd_model_free(with);
+    return made;
+}
+
+/* Without model exchange the reason is kept. */
+static bool try_exchange(struct extras *extras, const fbd_model *model)
+{
+    const size_t count = fbd_model_parameter_count(model);
+    double *values = ARENA_ARRAY(&extras->arena, count + 1, double);
+    fbd_errors *errors = fbd_errors_new();
+    const bool memory = values && errors;
+    for (size_t i = 0; memory && i < count; i++) values[i] = fbd_model_parameter(model, i).value;
+    extras->exchanges = memory && count_indicators(extras, model, values, errors);
+    if (memory && !extras->exchanges) take_reason(extras, errors);
+    fbd_errors_free(errors);
+    return memory;
+}
+
+static void add(struct extras *extras, struct extra extra)
+{
+    extras->list[extras->count++] = extra;
+}
+
+/* The rates of user states, by the names that the standard gives to derivatives. */
+static void add_rates(struct extras *extras, const fbd_model *model)
+{
+    const size_t variables = fbd_model_variable_count(model);
+    for (size_t i = 0, index = 0; i < variables; i++) {
+        const fbd_variable variable = fbd_model_variable(model, i);
+        if (variable.kind != FBD_VARIABLE_STATE) continue;
+        const char *name = arena_printf(&extras->arena, "der(%s%s%s)", variable.owner,
+                                        variable.owner[0] ? "." : "", variable.name);
+        add(extras,
+            (struct extra){extra_rate, name, fbd_model_state(model, index).rate_unit, index, i, false});
+        index++;
+    }
+}
+
+bool extras_make(struct extras *extras, const fbd_model *model)
+{
+    *extras = (struct extras){.forces = fbd_force_columns_new(model)};
+    if (!extras->forces || !try_exchange(extras, model)) return false;
+    const size_t forces = fbd_force_columns_count(extras->forces), states = fbd_model_state_count(model);
+    extras->list = ARENA_ARRAY(&extras->arena, forces + states + extras->indicators + 1, struct extra);
+    if (!extras->list) return false;
+    for (size_t i = 0; i < forces; i++)
+        add(extras, (struct extra){extra_force, fbd_force_columns_name(extras->forces, i),
+                                   fbd_force_columns_unit(extras->forces, i), i, 0, false});
+    if (extras->exchanges) add_rates(extras, model);
+    for (size_t i = 0; i < extras->indicators; i++)
+        add(extras, (struct extra){extra_indicator, arena_printf(&extras->arena, "indicator[%zu]", i + 1), "",
+                                   i, 0, false});
+    return !extras->arena.failed;
+}
+
+static struct extra *find_force(struct extras *extras, const char *name, size_t length)
+{
+    for (size_t i = 0; i < fbd_force_columns_count(extras->forces); i++)
+        if (strlen(extras->list[i].name) == length && memcmp(extras->list[i].name, name, length) == 0)
+            return &extras->list[i];
+    return NULL;
+}
+
+static bool refuse_name(struct extras *extras, const char *name, size_t length, fbd_errors *errors)
+{
+    const size_t count = fbd_force_columns_count(extras->forces);
+    const char **names = ARENA_ARRAY(&extras->arena, count + 1, const char *);
+    const char *wrong = arena_text(&extras->arena, name, length);
+    for (size_t i = 0; names && i < count; i++) names[i] = extras->list[i].name;
+    if (names && wrong)
+        diag_add(errors, FBD_ERROR, "unknown-output", (struct pos){0, 0},
+                 diag_nearest(errors, wrong, names, count), "no force, moment or reaction is called `%s`",
+                 wrong);
+    else
+        diag_out_of_memory(errors);
+    return false;
+}
+
+bool extras_choose(struct extras *extras, const char *names, fbd_errors *errors)
+{
+    while (names) {
+        const char *comma = strchr(names, ',');
+        const size_t length = comma ? (size_t)(comma - names) : strlen(names);
+        struct extra *force = find_force(extras, names, length);
+        if (!force) return refuse_name(extras, names, length, errors);
+        force->output = true;
+        names = comma ? comma + 1 : NULL;
+    }
+    return true;
+}
+
+void extras_free(struct extras *extras)
+{
+    fbd_force_columns_free(extras->forces);
+    arena_free(&extras->arena);
+    *extras = (struct extras){0};
+}
