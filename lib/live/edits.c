@@ -24,11 +24,13 @@ void edits_replace(struct edits *edits, size_t from, size_t to, const char *with
         edits->list = list;
         edits->room = room;
     }
-    char *copy = strdup(with);
-    edits->failed |= !copy;
-    if (!copy) return;
-    edits->list[edits->count] = (struct edit){from, to, edits->count, copy};
-    edits->count++;
+    struct edit *edit = &edits->list[edits->count];
+    *edit = (struct edit){.from = from, .to = to, .order = edits->count};
+    edit->with = strdup(with);
+    if (edit->with)
+        edits->count++;
+    else
+        edits->failed = true;
 }
 
 /* ---- lines */
