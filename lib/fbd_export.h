@@ -190,6 +190,25 @@ FBD_API char *fbd_model_controls(const fbd_model *model, fbd_errors *errors);
 FBD_API char *fbd_model_without(const fbd_model *model, const char *const *effects, size_t count,
                                 fbd_errors *errors);
 
+/* A pull by hand: a spring and a damper from a point of a body to a pointer. */
+typedef struct fbd_pull {
+    size_t size; /* sizeof(fbd_pull), or 0 */
+    const char *body;
+    double at[2]; /* the grabbed point, in the frame of the body */
+    double
+        stiffness; /* in the model's units of force by length; the damping is half of critical for the body's mass */
+    double from, to;    /* s */
+    const double *path; /* count times t, x, y of the pointer in the world, between which it moves evenly */
+    size_t count;
+} fbd_pull;
+
+/* The text of the file with that pull as an `applied` force `pull` (`pull_2`, ... if it has that word) of the body,
+ * with its path as a table. On a slide of the ground it acts along the line; on particles, tracks and other slides at
+ * G. Derivations by hand and known solutions become comments. To be freed with fbd_free; NULL with a note in
+ * `errors`: `unknown-body`, `not-pulled` for a prescribed motion, or where the text has no place for it, `bad-call`,
+ * or memory is out. */
+FBD_API char *fbd_model_pulled(const fbd_model *model, const fbd_pull *pull, fbd_errors *errors);
+
 /* The notes of a list, as one JSON list of {severity, id, message, hint, see, file, line, column,
  * context_line, context_column, fix}, with null for an unknown hint, section of the guide (see), file or fix, and fix {line, column, replace, with} as fbd_fix. To be
  * freed with fbd_free; NULL when memory is out. */

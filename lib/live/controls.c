@@ -3,7 +3,8 @@
  * The elements of a file that can be changed by a slider or switched off, and their positions in the text:
  *
  * - parameters: {name, unit, value, low, high, description, input, derived, written} - initial: {name, unit,
- * value, written} of coordinates, rates and user states - until, method, tolerance: {unit, value, written} -
+ * value, written} of coordinates, rates and user states - masses, slopes: {name, unit, value, written} of a body,
+ * with the direction of its slide - until, method, tolerance: {unit, value, written} -
  * effects: {name, line} - methods: their names
  *
  * written: {from, to} of the text in UTF-16 units, as scripts count; with `number` and `factor` if it is a
@@ -21,6 +22,7 @@
 #include "fbd_export.h"
 #include "fbd_study.h"
 #include "fbd_view.h"
+#include "live/edits.h"
 #include "live/live.h"
 
 struct controls {
@@ -102,48 +104,21 @@ static void write_gap(struct controls *controls, size_t from, const char *before
     text_add(controls->text, "}");
 }
 
-/* The blanks before the first character of a line; NULL if `at` is not the first one. */
-static char *indent_of(const struct controls *controls, size_t at)
-{
-    const char *source = controls->source;
-    size_t start = at;
-    while (start > 0 && source[start - 1] == ' ') start--;
-    if (start > 0 && source[start - 1] != '\n') return NULL;
-    char *indent = malloc(at - start + 1);
-    if (!indent) return NULL;
-    memset(indent, ' ', at - start);
-    indent[at - start] = '\0';
-    return indent;
-}
-
 /* Write the position of a new pair `key` after the last one of a nonempty mapping. */
 static void write_new_pair(struct controls *controls, int map, const char *key, const char *open,
                            const char *close)
 {
-    const struct spans *spans = controls->spans;
-    size_t count = spans_count(spans, map);
-    const char *last = count > 0 ? spans_key_name(spans, map, count - 1) : NULL;
-    struct span value = last ? spans_of(spans, spans_find(spans, map, last)) : (struct span){0, 0};
-    struct span name = last ? spans_key(spans, map, last) : value;
-    bool flow = spans_is_flow(spans, map);
-    char *indent = last && !flow ? indent_of(controls, name.from) : NULL;
+    const struct edits edits = {.text = controls->source, .length = controls->length};
     struct text before = {0};
-    size_t at = value.to;
-    if (flow)
-        text_printf(&before, ", %s: %s", key, open);
-    else if (indent)
-        text_printf(&before, "\n%s%s: %s", indent, key, open);
-    if (indent) { /* after a comment on that line */
-        const char *end = memchr(controls->source + at, '\n', controls->length - at);
-        at = end ? (size_t)(end - controls->source) : controls->length;
-    }
-    if (before.data && !before.failed && value.to > name.to)
+    size_t at;
+    bool found = edits_new_pair(&edits, controls->spans, map, key, &before, &at);
+    text_add(&before, open);
+    if (found && !before.failed)
         write_gap(controls, at, before.data, close);
     else
         text_add(controls->text, "null");
     controls->text->failed |= before.failed;
     text_free(&before);
-    free(indent);
 }
 
 /* ---- numbers */
@@ -235,6 +210,59 @@ static void write_initials(struct controls *controls)
     text_add(controls->text, "],\n");
 }
 
+/* ---- masses and slopes, by which a scene is changed where it is drawn */
+
+static void write_masses(struct controls *controls)
+{
+    const struct spans *spans = controls->spans;
+    const int bodies = spans_find(spans, spans_root(spans), "bodies");
+    text_add(controls->text, "\"masses\":[");
+    for (size_t b = 0; b < fbd_model_body_count(controls->model); b++) {
+        const char *body = fbd_model_body_name(controls->model, b);
+        json_comma(controls->text, b);
+        begin_value(controls, body, fbd_model_units(controls->model).mass,
+                    fbd_model_inertia(controls->model, b).mass);
+        json_key(controls->text, "written");
+        write_place(controls, spans_find(spans, spans_find(spans, bodies, body), "mass"));
+        text_add(controls->text, "}");
+    }
+    text_add(controls->text, "],\n");
+}
+
+/* The direction of a slide, in its own mapping or in that of the line of the ground that it names; 0 without one. */
+static int slope_of(const struct controls *controls, const char *body)
+{
+    const struct spans *spans = controls->spans;
+    const int root = spans_root(spans), map = spans_find(spans, spans_find(spans, root, "bodies"), body),
+              slide = spans_find(spans, spans_find(spans, map, "motion"), "slide"),
+              lines = spans_find(spans, spans_find(spans, root, "ground"), "lines");
+    const struct span named = spans_inside(spans, spans_find(spans, slide, "line"));
+    for (size_t i = 0; named.to > named.from && i < spans_count(spans, lines); i++) {
+        const char *name = spans_key_name(spans, lines, i);
+        if (name && strlen(name) == span_length(named) &&
+            memcmp(name, controls->source + named.from, span_length(named)) == 0)
+            return spans_find(spans, spans_find(spans, lines, name), "along");
+    }
+    return spans_find(spans, slide, "along");
+}
+
+static void write_slopes(struct controls *controls)
+{
+    size_t written = 0;
+    text_add(controls->text, "\"slopes\":[");
+    for (size_t b = 0; b < fbd_model_body_count(controls->model); b++) {
+        const fbd_body body = fbd_model_body(controls->model, b);
+        const int slope = body.motion == FBD_MOTION_SLIDE ? slope_of(controls, body.name) : 0;
+        if (!slope) continue;
+        json_comma(controls->text, written++);
+        begin_value(controls, body.name, "rad", atan2(body.along[1], body.along[0]));
+        json_key(controls->text, "written");
+        write_place(controls, slope);
+        text_add(controls->text, "}");
+    }
+    text_add(controls->text, "],\n");
+}
+
 /* ---- the run */
 
 static void write_of_run(struct controls *controls, const char *key, const char *unit, double value)
@@ -301,6 +329,8 @@ char *fbd_model_controls(const fbd_model *model, fbd_errors *list)
         text_add(&text, "{");
         write_parameters(&controls);
         write_initials(&controls);
+        write_masses(&controls);
+        write_slopes(&controls);
         write_run(&controls);
         write_effects(&controls);
     }

@@ -11,72 +11,12 @@
 #include "base/diag.h"
 #include "fbd_export.h"
 #include "fbd_view.h"
+#include "live/edits.h"
 #include "live/live.h"
-
-/* Replace the bytes `from` to before `to` by `with`. */
-struct change {
-    size_t from, to;
-    const char *with;
-};
-
-struct changes {
-    const char *text;
-    size_t length;
-    struct change *list;
-    size_t count, room;
-    bool failed;
-};
-
-static void change(struct changes *changes, size_t from, size_t to, const char *with)
-{
-    if (changes->count == changes->room) {
-        size_t room = changes->room ? 2 * changes->room : 64;
-        struct change *list = realloc(changes->list, room * sizeof *list);
-        if (!list) {
-            changes->failed = true;
-            return;
-        }
-        changes->list = list;
-        changes->room = room;
-    }
-    changes->list[changes->count++] = (struct change){from, to, with};
-}
-
-/* ---- entries on lines of their own */
-
-static size_t line_start(const struct changes *changes, size_t at)
-{
-    while (at > 0 && changes->text[at - 1] != '\n') at--;
-    return at;
-}
-
-/* Comment out the lines from `from`, the start of the entry, to that of `to`, each from the same column on. */
-static void comment_out(struct changes *changes, size_t from, size_t to)
-{
-    size_t column = from - line_start(changes, from);
-    for (size_t at = from; at < to;) {
-        change(changes, at, at, "# ");
-        const char *end = memchr(changes->text + at, '\n', to - at);
-        if (!end) return;
-        at = (size_t)(end - changes->text) + 1;
-        while (at < to && strchr("\r\n", changes->text[at])) at++; /* empty lines stay */
-        size_t indent = 0;
-        while (indent < column && at + indent < to && changes->text[at + indent] == ' ') indent++;
-        at += indent;
-    }
-}
-
-/* The position of the dash before an entry of a list. */
-static size_t dash_before(const struct changes *changes, size_t from)
-{
-    size_t at = from;
-    while (at > 0 && changes->text[at - 1] == ' ') at--;
-    return at > 0 && changes->text[at - 1] == '-' ? at - 1 : from;
-}
 
 /* ---- entries in brackets: cut with the following comma, at the end of the list with the preceding one */
 
-static void cut_entry(struct changes *changes, const struct span *entries, const bool *off, size_t count,
+static void cut_entry(struct edits *edits, const struct span *entries, const bool *off, size_t count,
                       size_t index)
 {
     size_t kept = count;
@@ -84,11 +24,11 @@ static void cut_entry(struct changes *changes, const struct span *entries, const
         if (!off[i]) kept = i;
     bool trailing = kept < index || kept == count;
     if (!trailing)
-        change(changes, entries[index].from, entries[index + 1].from, "");
+        edits_replace(edits, entries[index].from, entries[index + 1].from, "");
     else if (kept == count && index == 0)
-        change(changes, entries[0].from, entries[count - 1].to, "");
+        edits_replace(edits, entries[0].from, entries[count - 1].to, "");
     else if (kept + 1 == index)
-        change(changes, entries[kept].to, entries[count - 1].to, "");
+        edits_replace(edits, entries[kept].to, entries[count - 1].to, "");
 }
 
 /* ---- lists and bodies */
@@ -98,7 +38,7 @@ struct leaving {
     const struct live_effect *effects;
     const bool *off;
     size_t count;
-    struct changes changes;
+    struct edits edits;
 };
 
 /* Remove entries of the list of effect `first`, its first one; returns the index after its last effect. */
@@ -106,12 +46,12 @@ static size_t leave_out_of_list(struct leaving *leaving, size_t first)
 {
     const struct live_effect *effect = &leaving->effects[first];
     const struct spans *spans = leaving->spans;
-    struct changes *changes = &leaving->changes;
+    struct edits *edits = &leaving->edits;
     int list = spans_find(spans, effect->owner, effect->key);
     size_t count = spans_count(spans, list), end = first, left = 0;
     struct span *entries = calloc(count + 1, sizeof *entries);
     bool *off = calloc(count + 1, sizeof *off);
-    changes->failed |= !entries || !off;
+    edits->failed |= !entries || !off;
     for (; end < leaving->count && leaving->effects[end].owner == effect->owner &&
            strcmp(leaving->effects[end].key, effect->key) == 0;
          end++)
@@ -123,64 +63,19 @@ static size_t leave_out_of_list(struct leaving *leaving, size_t first)
     for (size_t i = 0; i < count && entries && off; i++) {
         if (!off[i]) continue;
         if (spans_is_flow(spans, list))
-            cut_entry(changes, entries, off, count, i);
+            cut_entry(edits, entries, off, count, i);
         else
-            comment_out(changes, dash_before(changes, entries[i].from), entries[i].to);
+            edits_comment_out(edits, edits_dash(edits, entries[i].from), entries[i].to);
     }
-    if (!changes->failed && left == 0 && !spans_is_flow(spans, list)) {
+    if (!edits->failed && left == 0 && !spans_is_flow(spans, list)) {
         size_t colon = spans_key(spans, effect->owner, effect->key).to;
-        const char *found = memchr(changes->text + colon, ':', changes->length - colon);
+        const char *found = memchr(edits->text + colon, ':', edits->length - colon);
         if (found)
-            change(changes, (size_t)(found - changes->text) + 1, (size_t)(found - changes->text) + 1, " []");
+            edits_replace(edits, (size_t)(found - edits->text) + 1, (size_t)(found - edits->text) + 1, " []");
     }
     free(entries);
     free(off);
     return end;
-}
-
-/* Remove the derivations in the mapping of a body. */
-static void leave_out_hand(struct leaving *leaving, int body)
-{
-    const struct spans *spans = leaving->spans;
-    struct span key = spans_key(spans, body, "hand"),
-                value = spans_of(spans, spans_find(spans, body, "hand"));
-    size_t next = 0, before = 0;
-    if (key.to == 0) return;
-    if (!spans_is_flow(spans, body)) {
-        comment_out(&leaving->changes, key.from, value.to);
-        return;
-    }
-    for (size_t i = 0; i < spans_count(spans, body); i++) {
-        const char *name = spans_key_name(spans, body, i);
-        struct span other = name ? spans_key(spans, body, name) : key;
-        if (other.from > key.from && (next == 0 || other.from < next)) next = other.from;
-        if (other.from < key.from) {
-            struct span of = spans_of(spans, spans_find(spans, body, name));
-            if (of.to > before) before = of.to;
-        }
-    }
-    change(&leaving->changes, next || before == 0 ? key.from : before, next ? next : value.to, "");
-}
-
-static int by_place(const void *a, const void *b)
-{
-    const struct change *first = a, *second = b;
-    return (first->from > second->from) - (first->from < second->from);
-}
-
-static void apply(struct text *text, struct changes *changes)
-{
-    size_t at = 0;
-    if (changes->count > 0) qsort(changes->list, changes->count, sizeof *changes->list, by_place);
-    for (size_t i = 0; i < changes->count; i++) {
-        const struct change *now = &changes->list[i];
-        if (now->from < at) continue; /* inside a removed part */
-        text_add_bytes(text, changes->text + at, now->from - at);
-        text_add(text, now->with);
-        at = now->to;
-    }
-    text_add_bytes(text, changes->text + at, changes->length - at);
-    text->failed |= changes->failed;
 }
 
 static void leave_out(struct leaving *leaving)
@@ -190,7 +85,7 @@ static void leave_out(struct leaving *leaving)
     for (size_t i = 0; i < leaving->count; i++) {
         if (!leaving->off[i] || !leaving->effects[i].body || leaving->effects[i].owner == done) continue;
         done = leaving->effects[i].owner;
-        leave_out_hand(leaving, done);
+        edits_remove_pair(&leaving->edits, leaving->spans, done, "hand");
     }
 }
 
@@ -241,9 +136,9 @@ static char *write_without(const fbd_model *model, const char *const *names, siz
         fine = choose(&leaving, off, names, count, errors);
         if (fine) {
             leave_out(&leaving);
-            apply(&text, &leaving.changes);
+            edits_apply(&text, &leaving.edits);
         }
-        free(leaving.changes.list);
+        edits_free(&leaving.edits);
     } else {
         diag_out_of_memory(errors);
     }

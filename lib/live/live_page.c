@@ -49,8 +49,8 @@ static void write_asset(struct text *text, const void *context)
 
 static void write_scripts(struct text *text, const void *context)
 {
-    static const char *const names[] = {"engine.js", "knobs.js", "editor.js", "share.js",
-                                        "values.js", "again.js", "pull.js",   "bench.js"};
+    static const char *const names[] = {"engine.js", "knobs.js", "editor.js", "share.js", "values.js",
+                                        "again.js",  "grips.js", "pull.js",   "bench.js"};
     (void)context;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) write_asset(text, names[i]);
 }
@@ -68,7 +68,8 @@ void live_write_parts(struct text *text, const void *context)
 
 /* ---- the model */
 
-static void add_script(struct text *text, const char *name)
+/* Append an asset as a string under its name. */
+static void add_asset(struct text *text, const char *name)
 {
     struct text copy = {0};
     json_key(text, name);
@@ -111,9 +112,9 @@ bool live_add_engine(struct text *text, const fbd_model *model, fbd_errors *erro
     for (size_t i = 0; i < fbd_model_data_file_count(model); i++)
         done = add_file(text, file_of(model), fbd_model_data_file(model, i).path, i, errors) && done;
     text_add(text, "],\n");
-    add_script(text, "wasi.js");
+    add_asset(text, "wasi.js");
     text_add(text, ",\n");
-    add_script(text, "worker.js");
+    add_asset(text, "worker.js");
     text_add(text, "}");
     return done;
 }
@@ -150,6 +151,8 @@ static bool make_parts(struct live_page *page, const fbd_model *model, const fbd
     json_text_member(text, "name", *name && *name != '<' ? name : "model.yaml");
     json_text_member(text, "text", source.data ? source.data : "");
     add_moved(text, options);
+    add_asset(text, "live-texts.json");
+    text_add(text, ",\n");
     bool done = live_add_engine(text, model, errors);
     if (text->failed || source.failed) diag_out_of_memory(errors);
     done = done && !text->failed && !source.failed;
@@ -190,13 +193,11 @@ static char *make_page(fbd_result *result, const fbd_live_options *options, fbd_
                  "this fbd was built without live pages");
         return NULL;
     }
-    const struct page_part parts[] = {{"POLICY", live_write_policy, NULL},
-                                      {"LIVE-STYLE", write_asset, "live.css"},
-                                      {"LIVE-PANEL", write_asset, "live.html"},
-                                      {"LIVE-EDITOR", write_asset, "live-editor.html"},
-                                      {"LIVE-SCRIPT", write_scripts, NULL},
-                                      {"LIVE-PARTS", live_write_parts, &page.parts},
-                                      {0}};
+    const struct page_part parts[] = {
+        {"POLICY", live_write_policy, NULL},           {"LIVE-STYLE", write_asset, "live.css"},
+        {"LIVE-PANEL", write_asset, "live.html"},      {"LIVE-EDITOR", write_asset, "live-editor.html"},
+        {"LIVE-TEXTS", write_asset, "phrases.js"},     {"LIVE-SCRIPT", write_scripts, NULL},
+        {"LIVE-PARTS", live_write_parts, &page.parts}, {0}};
     char *text = NULL;
     if (make_parts(&page, model, options, errors))
         text = page_make(result, room_for_numbers(&page), parts, errors);

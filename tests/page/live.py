@@ -16,7 +16,7 @@ sys.path.insert(0, str(Path(os.environ["FBD_SOURCE_ROOT"]) / "tests/tools"))
 import limits  # noqa: E402
 from browser import Browser, Missing  # noqa: E402
 from claims import claim, close, finish, skip  # noqa: E402
-from fbd import MODELS, result, run  # noqa: E402
+from fbd import MODELS, result, run, table  # noqa: E402
 
 INCLINE = MODELS / "kinetics/incline.yaml"
 PENDULUM = MODELS / "rotation/compound_pendulum.yaml"
@@ -184,7 +184,7 @@ def check_pull(browser, folder):
             browser.drag(places, pointer)
             wait_for(browser, f"bench.shown > {before} && !bench.runner.busy && !bench.runner.waiting")
             close(browser.run("return fbd.value('pendulum.theta', 0)"), theta + turn, 1.5 / arm + 0.01)  # whole pixels, steps of the slider
-        written = float(browser.run("return /theta: (.*?) deg/.exec(editor.value)[1]"))
+        written = float(browser.run("return /theta0: \\{value: (.*?) deg/.exec(editor.value)[1]"))
         close(browser.run("return fbd.value('pendulum.theta', 0)"), math.radians(written), 1e-12)
     path = live_page(folder, INCLINE)
     open_live(browser, path)
@@ -206,6 +206,117 @@ def check_pull(browser, folder):
         text = browser.run("return editor.value")
         browser.drag([(x, y), (x + 30, y)])
         assert browser.run("return [view.pan[0], editor.value]") == [30, text]
+    with claim("the page is quiet and asks for nothing"):
+        is_quiet(browser, path)
+
+
+# A place of the canvas, in the window.
+WINDOW = "const box = canvas.getBoundingClientRect(), windowed = ([x, y]) => [box.left + canvas.clientLeft + x, box.top + canvas.clientTop + y];"
+SAVED = "return new Promise((done) => savedText(done))"
+
+
+def check_hand(browser, folder):
+    path = live_page(folder, PENDULUM)
+    open_live(browser, path)
+    saved = folder / "pulled.yaml"
+    with claim("a body is pulled while the page plays: the spring is drawn, and is a force of the model with arrow, term and work"):
+        x, y = browser.run(WINDOW + "setSpeed(0.1); fbd.seek(0.5); const f = frameAt(run.bodies[0], 0.5, rowAt(0.5)); setPlaying(true); "
+                           "return windowed(toScreen(place(f, ...run.bodies[0].G)));")
+        browser.drag([(x, y), (x + 60, y + 20)], release=False)
+        wait_for(browser, "run.columns.some((column) => column.n.startsWith('pendulum.pull')) && drawn.arrows.some((arrow) => arrow[5] === 'pendulum:pull')")
+        assert browser.run("return run.links.some((link) => link.pulls) && player.playing")
+        assert "the hand pulls with" in browser.run("return element('live-says').textContent")
+        assert browser.run("return [...document.querySelectorAll('#equations .formula [data-arrow=\"pendulum:pull\"]')].length") == 2
+        before = browser.run("return bench.shown")
+        browser.drag([(x + 120, y - 60)], press=False, release=False)
+        wait_for(browser, f"bench.shown > {before}")
+    with claim("after the release the motion goes on, and what runs is what is saved: fbd-run has the same end and the same work of the hand"):
+        browser.drag([(x + 120, y - 60)], press=False)
+        wait_for(browser, "!pull.at && !bench.runner.busy && !bench.runner.waiting && player.playing")
+        assert "has let go" in browser.run("return element('live-says').textContent") and not browser.run("return run.links.length")
+        browser.run("setPlaying(false)")
+        saved.write_text(browser.run(SAVED), encoding="utf-8")
+        rows = table(saved)
+        close(browser.run("return fbd.value('pendulum.theta', run.end)"), rows[-1]["pendulum.theta"], SAME)
+        work = browser.run("const { work } = run.bodies[0].arrows.find(({ name }) => name === 'pull'); return [run.columns[work].n, valueAt(work, run.end, run.rows - 1)];")
+        assert work[0] == "pendulum.pull.work", work
+        close(work[1], rows[-1]["pendulum.pull.work"], 1e-6 * max(1, abs(work[1])))  # seven digits in the page
+        assert abs(work[1]) > 1e-3, work
+    with claim("derivations by hand, which have no pull, have become comments"):
+        assert "# hand:" in browser.run("return editor.value")
+    with claim("keys pull as well: g grabs and lets go, arrows move the hand"):
+        settled(browser, "setModel(bench.own, [])")
+        browser.run("setSpeed(0.1); fbd.seek(0.5); setPlaying(true); canvas.focus();")
+        browser.press("g")
+        browser.press("\ue014")
+        wait_for(browser, "pull.at && drawn.arrows.some((arrow) => arrow[5] === 'pendulum:pull')")
+        browser.press("g")
+        wait_for(browser, "!pull.at && !bench.runner.busy && !bench.runner.waiting")
+        assert browser.run("setPlaying(false); return /name: pull,/.test(editor.value)")
+        browser.press("g")
+        assert browser.run("return pull.at === null && element('live-says').textContent === phrase('live-pull-plays')")
+    with claim("a body whose motion is prescribed cannot be pulled, which is said by its name"):
+        open_live(browser, live_page(folder, MODELS / "couplings/driven_slider_crank.yaml"))
+        browser.run("setSpeed(0.01); fbd.seek(0.001); setPlaying(true); canvas.focus();")
+        browser.press("g")
+        browser.press("\ue014")
+        wait_for(browser, "element('live-says').lang === 'en'")
+        said = browser.run("return [element('live-says').textContent, /pull/.test(editor.value)]")
+        assert said == ["`crank` cannot be pulled: its motion is prescribed", False], said
+    with claim("the page is quiet and asks for nothing"):
+        is_quiet(browser, path)
+
+
+def check_grips(browser, folder):
+    path = live_page(folder, INCLINE)
+    open_live(browser, path)
+    with claim("a weight dragged to 3/2 of its arrow is that of 3/2 of the mass: text, slider and forces follow"):
+        tail, tip = browser.run(WINDOW + "fbd.seek(0.2); const [x1, y1, x2, y2] = drawn.arrows.find((arrow) => arrow[5] === 'block:gravity'); "
+                                "return [windowed([x1, y1]), windowed([x2, y2])];")
+        before = browser.run("return bench.shown")
+        end = [t + 1.5 * (p - t) for t, p in zip(tail, tip)]
+        browser.drag([tip, [(a + b) / 2 for a, b in zip(tip, end)], end])
+        wait_for(browser, f"bench.shown > {before} && !bench.runner.busy && !bench.runner.waiting")
+        mass = float(browser.run("return /mass: (.*?) kg/.exec(editor.value)[1]"))
+        close(mass, 3, 3 / math.dist(tail, tip) + 0.05)  # whole pixels, steps of the slider
+        assert browser.run("return knobs.get('masses.block').box.value") == f"{mass:g} kg"
+        close(browser.run("return fbd.value('block.gravity', 0.2)"), -mass * 9.81 * math.sin(math.radians(30)), 1e-5)
+    with claim("a slope turns with the pointer, and the parameter of its angle follows"):
+        settled(browser, "setModel(bench.own, [])")
+        foot, at = browser.run(WINDOW + "const { through, along, normal } = run.bodies[0].line; for (let away = 60; ; away += 5) { "
+                               "const [x, y] = toScreen(through), p = [x - away * along[0] - 12 * normal[0], y + away * along[1] + 12 * normal[1]]; "
+                               "if (gripOfSlope(p, 8) && !gripAt(p, 0)) return [windowed([x, y]), windowed(p)]; if (away > 900) return [[], away]; }")
+        before, arm, angle = browser.run("return bench.shown"), math.dist(foot, at), math.atan2(foot[1] - at[1], at[0] - foot[0])
+        browser.drag([at, *[(foot[0] + arm * math.cos(angle + turn), foot[1] - arm * math.sin(angle + turn)) for turn in (0.05, 0.1, 0.15)]])
+        wait_for(browser, f"bench.shown > {before} && !bench.runner.busy && !bench.runner.waiting")
+        phi = float(browser.run("return /phi: \\{value: (.*?) deg/.exec(editor.value)[1]"))
+        close(math.radians(phi), math.radians(30) + 0.15, 1.5 / arm + math.radians(0.25))
+        close(browser.run("const { along } = run.bodies[0].line; return Math.atan2(along[1], along[0])"), math.radians(phi), 1e-12)
+    with claim("the page is quiet and asks for nothing"):
+        is_quiet(browser, path)
+
+
+def check_language(browser, folder):
+    path = live_page(folder, INCLINE)
+    texts = json.loads((Path(os.environ["FBD_SOURCE_ROOT"]) / "lib/live/page/live-texts.json").read_text(encoding="utf-8"))
+    with claim("live pages have the same texts in all languages, with the same places for values"):
+        assert list(texts["de"]) == list(texts["en"])
+        for key, text in texts["en"].items():
+            places = [mark for mark in ("{0}", "{1}", "{2}", "{3}", "{4}") if mark in text]
+            assert all(mark in texts["de"][key] for mark in places), key
+    open_live(browser, path)
+    with claim("the switch of the language changes the texts of the live panel"):
+        browser.run("element('language').value = 'de'; element('language').dispatchEvent(new Event('change'))")
+        for node, key in (("#live-save", "live-save"), ("#live legend", "live-simulated"), ("#live-costs summary", "live-costs")):
+            assert browser.run(f"return document.querySelector('{node}').textContent") == texts["de"][key], key
+        assert browser.run("return element('live').getAttribute('aria-label')") == texts["de"]["live-change"]
+        assert browser.run("return [...document.querySelectorAll('#live .knob input[type=range]')].every((input) => /Schieber$/.test(input.getAttribute('aria-label')))")
+        assert browser.run("return element('live-says').textContent").startswith("gelaufen in ")
+    with claim("messages of the library stay English, are marked so, and the page says it"):
+        assert browser.run("return document.querySelector('[data-text=live-messages]').textContent") == texts["de"]["live-messages"]
+        browser.run("setEditor(bench.own.replace('gravity:', 'gravty:')); editor.dispatchEvent(new Event('input'))")
+        wait_for(browser, "document.querySelector('#live-notes button')")
+        assert browser.run("return element('live-notes').lang") == "en"
     with claim("the page is quiet and asks for nothing"):
         is_quiet(browser, path)
 
@@ -344,6 +455,9 @@ def main():
             with Browser(1100, 1000) as browser:
                 check_sliders(browser, folder)
                 check_pull(browser, folder)
+                check_hand(browser, folder)
+                check_grips(browser, folder)
+                check_language(browser, folder)
                 check_editor(browser, folder)
                 check_effects(browser, folder)
                 check_values(browser, folder)

@@ -125,10 +125,12 @@ class Browser:
         self._call("POST", "/actions", {"actions": [{"type": "key", "id": "keys", "actions": [
             {"type": kind, "value": value} for kind, value in keys]}]})
 
-    def drag(self, places, pointer="mouse"):
-        """From the first place [x, y] of the window over the others to the last one, by mouse or by touch."""
+    def drag(self, places, pointer="mouse", press=True, release=True):
+        """From the first place [x, y] of the window over the others to the last one, by mouse or by touch; without `release`
+        it goes on by another call without `press`."""
         moves = [{"type": "pointerMove", "x": round(x), "y": round(y)} for x, y in places]
-        actions = [moves[0], {"type": "pointerDown", "button": 0}, *moves[1:], {"type": "pointerUp", "button": 0}]
+        down, up = [{"type": "pointerDown", "button": 0}], [{"type": "pointerUp", "button": 0}]
+        actions = moves[:1] + down * press + moves[1:] + up * release
         self._call("POST", "/actions", {"actions": [
             {"type": "pointer", "id": pointer, "parameters": {"pointerType": pointer}, "actions": actions}]})
 

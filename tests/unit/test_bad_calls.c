@@ -308,6 +308,10 @@ static void results(void **context)
     REFUSES(fbd_model_controls, !fbd_model_controls(NULL, errors));
     REFUSES(fbd_model_without, !fbd_model_without(NULL, NULL, 0, errors));
     REFUSES(fbd_model_without, !fbd_model_without(model, NULL, 1, errors));
+    const fbd_pull no_pull = {.body = "b"};
+    REFUSES(fbd_model_pulled, !fbd_model_pulled(NULL, &no_pull, errors));
+    REFUSES(fbd_model_pulled, !fbd_model_pulled(model, NULL, errors));
+    REFUSES(fbd_model_pulled, !fbd_model_pulled(model, &no_pull, errors));
     REFUSES(fbd_model_with_callbacks, !fbd_model_with_callbacks(NULL, NULL, 0, errors));
     REFUSES(fbd_model_with_callbacks, !fbd_model_with_callbacks(model, NULL, 1, errors));
     char *no_notes = fbd_errors_json(NULL);

@@ -132,6 +132,119 @@ static void what_the_file_does_not_list_cannot_be_left_out(void **unused)
     fbd_model_free(model);
 }
 
+/* ---- pulls */
+
+static const double way[] = {0.5, 0, 0, 0.75, 0.1, 0.2};
+
+static fbd_pull pull_of(const char *body)
+{
+    return (fbd_pull){
+        .body = body, .at = {0.25, 0}, .stiffness = 16, .from = 0.5, .to = 1, .path = way, .count = 2};
+}
+
+/* The end of a text that is pulled, whose start stays; both are parsed and run by the caller's model. */
+static void pulled_text_has(const char *text, const char *body, const char *const *parts, size_t count)
+{
+    fbd_model *model = parse(text);
+    const fbd_pull pull = pull_of(body);
+    char *got = fbd_model_pulled(model, &pull, NULL);
+    assert_non_null(got);
+    for (size_t i = 0; i < count; i++)
+        if (!strstr(got, parts[i])) fail_msg("no `%s` in %s", parts[i], got);
+    fbd_model *again = parse(got);
+    fbd_model_free(again);
+    fbd_free(got);
+    fbd_model_free(model);
+}
+
+static void a_pull_is_a_force_with_a_point_and_a_path(void **unused)
+{
+    (void)unused;
+    static const char lines[] = "fbd: 1\n"
+                                "bodies:\n"
+                                "  rod:\n"
+                                "    shape: rod\n"
+                                "    mass: 4 kg\n"
+                                "    length: 1 m\n"
+                                "    motion: pivot\n"
+                                "    hand: I_O*omega_dot = -0*m\n"
+                                "    forces:\n"
+                                "      - gravity # down\n"
+                                "      - drag: {linear: 1 N*s/m}\n"
+                                "simulate: {until: 2 s} # long\n";
+    static const char *const in_lines[] = {
+        "      - drag: {linear: 1 N*s/m}\n"
+        "      - applied: {name: pull, at: pull, fx: \"pulse(t, 0.5[s], 0.5[s])*(16[N/m]*(pull_x(t) - "
+        "rod.pull.x) - "
+        "8[N*s/m]*rod.pull.vx)\", fy: \"pulse(",
+        "    # hand: I_O",
+        "\n    points: {pull: [0.25, 0]}\n",
+        "simulate: {until: 2 s} # long\n"
+        "tables: {pull_x: {interpolation: steffen, points: [[0.5 s, 0 m], [0.75 s, 0.1 m], [1 s, 0.1 m]]}, "
+        "pull_y: {",
+    };
+    static const char brackets[] = "fbd: 1\ntables: {f: [[0, 0], [1, 1]]}\nbodies: {pull: {mass: 1 kg, "
+                                   "motion: {slide: {along: 90 deg}}, forces: "
+                                   "{applied: \"f(t)\"}, exact: {x: 0}}}\nsimulate: {until: 1 s}\n";
+    /* along the line: from the grabbed point, 0.25 m before x, at y = 0.2 m */
+    static const char *const in_brackets[] = {
+        "forces: [{applied: \"f(t)\"}, applied: {name: pull_2, value: \"pulse(t, 0.5[s], "
+        "0.5[s])*(16[N/m]*(pull_2_x(t) - "
+        "x) - 4[N*s/m]*v)\"}]}",
+        "tables: {f: [[0, 0], [1, 1]], pull_2_x: {interpolation: steffen, points: [[0.5 s, -0.25 m], [0.75 "
+        "s, -0.05 m]",
+    };
+    pulled_text_has(lines, "rod", in_lines, sizeof in_lines / sizeof *in_lines);
+    pulled_text_has(brackets, "pull", in_brackets, sizeof in_brackets / sizeof *in_brackets);
+}
+
+static void every_way_to_list_forces_has_a_place_for_a_pull(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *list, *want;
+    } cases[] = {
+        {"", "motion: particle, forces: [applied: {name: pull, fx"},
+        {", forces: []", "forces: [applied: {name: pull, fx"},
+        {", forces: gravity", "forces: [gravity, applied: {name: pull, fx"},
+        {", forces: [gravity]", "forces: [gravity, applied: {name: pull, fx"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[300];
+        snprintf(text, sizeof text,
+                 "fbd: 1\nbodies: {b: {mass: 1 kg, motion: particle%s}}\nsimulate: {until: 1 s}\n",
+                 cases[i].list);
+        pulled_text_has(text, "b", &cases[i].want, 1);
+    }
+}
+
+static void pull_is_refused(const char *text, const char *body, const char *id, const char *part)
+{
+    fbd_model *model = parse(text);
+    fbd_errors *errors = fbd_errors_new();
+    const fbd_pull pull = pull_of(body);
+    assert_null(fbd_model_pulled(model, &pull, errors));
+    assert_string_equal(fbd_errors_get(errors, 0).id, id);
+    if (!strstr(fbd_errors_get(errors, 0).message, part)) fail_msg("%s", fbd_errors_get(errors, 0).message);
+    fbd_errors_free(errors);
+    fbd_model_free(model);
+}
+
+static void what_cannot_be_pulled_is_refused_by_name(void **unused)
+{
+    (void)unused;
+    static const char driven[] =
+        "fbd: 1\nbodies: {b: {mass: 1 kg, motion: {slide: {x: \"t*1[m/s]\"}}}}\nsimulate: {until: 1 s}\n";
+    static const char alias[] =
+        "fbd: 1\nbodies: {b: &b {mass: 1 kg, motion: particle}, c: *b}\nsimulate: {until: 1 s}\n";
+    static const char single[] = "fbd: 1\nbodies:\n  b:\n    mass: 1 kg\n    motion: particle\n    forces:\n"
+                                 "      drag:\n        linear: 1 N*s/m\nsimulate: {until: 1 s}\n";
+    pull_is_refused(driven, "b", "not-pulled", "`b` cannot be pulled: its motion is prescribed");
+    pull_is_refused(driven, "c", "unknown-body", "no body `c`");
+    pull_is_refused(alias, "c", "not-pulled", "alias");
+    pull_is_refused(single, "b", "not-pulled", "no place for a new entry of `forces`");
+}
+
 /* ---- controls */
 
 static void controls_have(const char *text, const char *part)
@@ -175,6 +288,22 @@ static void a_place_is_found_for_what_is_not_written(void **unused)
     controls_have(text, "\"before\":\"\\n  tolerance: \",\"behind\":\"\"}");
 }
 
+static void masses_and_slopes_are_found_where_they_are_written(void **unused)
+{
+    (void)unused;
+    const char text[] = "fbd: 1\n"
+                        "ground: {lines: {ramp: {along: 30 deg}}}\n"
+                        "bodies:\n"
+                        "  a: {mass: 2 kg, motion: {slide: {line: ramp}}}\n"
+                        "  b: {mass: 3 kg, motion: {slide: {along: 0.5}}}\n"
+                        "  c: {parts: {p: {shape: sphere, radius: 1 m, mass: 1 kg}}, motion: particle}\n"
+                        "simulate: {until: 1 s}\n";
+    controls_have(text, "{\"name\":\"a\",\"unit\":\"kg\",\"value\":2,\"written\":{\"from\":68,\"number\":1,");
+    controls_have(text, "{\"name\":\"c\",\"unit\":\"kg\",\"value\":1,\"written\":null}");
+    controls_have(text, "{\"from\":38,\"number\":2,");
+    controls_have(text, "{\"name\":\"b\",\"unit\":\"rad\",\"value\":0.5,");
+}
+
 static void notes_are_told_as_json(void **unused)
 {
     (void)unused;
@@ -195,6 +324,10 @@ int main(void)
         cmocka_unit_test(entries_on_lines_of_their_own_become_comments),
         cmocka_unit_test(entries_in_brackets_are_cut_out),
         cmocka_unit_test(what_the_file_does_not_list_cannot_be_left_out),
+        cmocka_unit_test(a_pull_is_a_force_with_a_point_and_a_path),
+        cmocka_unit_test(every_way_to_list_forces_has_a_place_for_a_pull),
+        cmocka_unit_test(what_cannot_be_pulled_is_refused_by_name),
+        cmocka_unit_test(masses_and_slopes_are_found_where_they_are_written),
         cmocka_unit_test(numbers_are_found_in_the_text_by_utf_16_units),
         cmocka_unit_test(a_place_is_found_for_what_is_not_written),
         cmocka_unit_test(notes_are_told_as_json),

@@ -55,6 +55,16 @@ static void derivations_are_checked(void **unused)
     says(live_check_hand("fbd: 1\nbodies: 3\n", "none.yaml"), "\"id\":\"wrong-type\"");
 }
 
+static void a_pull_is_written_into_the_text(void **unused)
+{
+    (void)unused;
+    says(live_pulled(right, "right.yaml", "block", "0 0 0 0.5 1 0", 0, 0, 100, 0, 1),
+         "[[0 s, 0 m], [0.5 s, 1 m], [1 s, 1 m]]");
+    says(live_pulled(right, "right.yaml", "blok", "0 0 0 0.5 1 0", 0, 0, 100, 0, 1),
+         "\"id\":\"unknown-body\"");
+    says(live_pulled(right, "right.yaml", "block", "", 0, 0, 100, 0, 1), "\"text\":null}");
+}
+
 static void values_are_found(void **unused)
 {
     (void)unused;
@@ -95,9 +105,9 @@ static void details_are_for_the_teacher(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(derivations_are_checked),     cmocka_unit_test(values_are_found),
-        cmocka_unit_test(notes_are_written),           cmocka_unit_test(answers_are_graded),
-        cmocka_unit_test(details_are_for_the_teacher),
+        cmocka_unit_test(derivations_are_checked), cmocka_unit_test(a_pull_is_written_into_the_text),
+        cmocka_unit_test(values_are_found),        cmocka_unit_test(notes_are_written),
+        cmocka_unit_test(answers_are_graded),      cmocka_unit_test(details_are_for_the_teacher),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

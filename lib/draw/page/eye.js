@@ -7,7 +7,6 @@ function eyeOn(change) {
   refresh();
 }
 
-const zoomStep = 1.25;
 const fingers = new Map(); // pointers that are down: id -> [x, y]
 let pressed = null; // the start of a press by one pointer
 
@@ -29,9 +28,7 @@ function movePointer(event) {
 }
 
 function connectEye() {
-  const middle = () => [view.width / 2, (view.height - strip) / 2];
-  listen("zoom-in", "click", () => eyeOn(() => zoomBy(zoomStep, middle())));
-  listen("zoom-out", "click", () => eyeOn(() => zoomBy(1 / zoomStep, middle())));
+  for (const [id, factor] of [["zoom-in", 1.25], ["zoom-out", 0.8]]) listen(id, "click", () => eyeOn(() => zoomBy(factor, viewMiddle())));
   listen("zoom-all", "click", () => { element("follow").checked = false; eyeOn(showWhole); });
   canvas.addEventListener("dblclick", () => eyeOn(showWhole));
   // the wheel without a modifier scrolls the page, unless the scene has the focus

@@ -73,14 +73,9 @@ function inertiaIn(equation) {
   return (t, row) => equation.value * mass(t, row) / equation.massAtStart;
 }
 
-// The terms of an equation that are nonzero at some time.
-function livingTerms(equation) {
-  return equation.terms.filter(([, index]) => sizeOf(index) > roundingOf(equation.unit));
-}
-
-// The displayed terms: in symbols those with a symbol.
+// The displayed terms: those with a symbol, and those that are nonzero at some time.
 function writtenTerms(equation) {
-  return equation.left ? equation.terms.filter(([, , symbol]) => symbol) : livingTerms(equation);
+  return equation.terms.filter(([, index, symbol]) => symbol || sizeOf(index) > roundingOf(equation.unit));
 }
 
 // The sign of a term; without space around the first one.
@@ -98,7 +93,7 @@ function inSymbols(equation) {
   terms.forEach(([name, , symbol], i) => {
     const negative = symbol.startsWith("-");
     if (i || negative) row.append(termSign(i === 0, negative ? "−" : "+"));
-    row.append(markTerm(math("mrow", ...mathOf(negative ? symbol.slice(1) : symbol)), equation, name));
+    row.append(markTerm(math("mrow", ...mathOf(negative ? symbol.slice(1) : symbol || `(${name})`)), equation, name));
   });
   if (!terms.length) row.append(math("mn", "0"));
   return mathLine(row);

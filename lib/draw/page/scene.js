@@ -129,11 +129,16 @@ function drawSurface(through, along, normal, down) {
   view.grounds.push(ground);
 }
 
+// The distance on the canvas of the surface of a slide from the line of the body's x; 0 without a surface.
+function surfaceBelow(body) {
+  return body.line.surface ? (wedgeReach(body) || body.line.reach) * view.scale || view.block * 0.7 : 0;
+}
+
 // Draw the surface under the body, or the line on which it moves.
 function drawLine(body) {
-  const { through, along, normal, surface, reach } = body.line;
+  const { through, along, normal, surface } = body.line;
   if (surface) {
-    drawSurface(through, along, normal, wedgeReach(body) * view.scale || reach * view.scale || view.block * 0.7);
+    drawSurface(through, along, normal, surfaceBelow(body));
   } else {
     path(acrossCanvas(through, along, normal, 0));
     strokeWith(tone.line, 1, [6, 4]);

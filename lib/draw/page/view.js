@@ -193,8 +193,8 @@ function fitWhole() {
   let scale = Math.min(across.most, up.most);
   if (!(scale > 0)) scale = Math.min(room[0], room[1]) / (Math.max(held.right - held.left, held.top - held.bottom) || 1);
   if (!Number.isFinite(scale)) scale = 0.5 * Math.min(view.width, view.height);
-  const [left, right] = across.span(scale), [top, bottom] = up.span(scale);
-  Object.assign(view, { scale, wholeScale: scale, x: view.width / 2 - (left + right) / 2, y: (view.height - strip) / 2 - (top + bottom) / 2 });
+  const [left, right] = across.span(scale), [top, bottom] = up.span(scale), [mx, my] = viewMiddle();
+  Object.assign(view, { scale, wholeScale: scale, x: mx - (left + right) / 2, y: my - (top + bottom) / 2 });
 }
 
 // The least distance of two parallel slides with bodies without a size, whose blocks must not overlap.
@@ -235,15 +235,16 @@ function follow(body, frame) {
   const [x, y] = place(frame, ...body.G);
   const near = 0.09 * Math.min(view.width, view.height) / (bodyExtent(body) || Infinity);
   view.scale = Math.max(view.wholeScale, near) * view.zoom;
-  view.x = view.width / 2 + view.pan[0] - view.scale * x;
-  view.y = (view.height - strip) / 2 + view.pan[1] + view.scale * y;
+  const [mx, my] = viewMiddle();
+  view.x = mx + view.pan[0] - view.scale * x;
+  view.y = my + view.pan[1] + view.scale * y;
   drawStill();
 }
 
 // Zoom by a factor; the point [x, y] of the canvas stays in place.
 function zoomBy(factor, [x, y]) {
   const zoom = Math.min(Math.max(view.zoom * factor, 0.05), 200), by = zoom / view.zoom;
-  const from = [x - view.width / 2, y - (view.height - strip) / 2];
+  const [mx, my] = viewMiddle(), from = [x - mx, y - my];
   view.pan = view.pan.map((p, k) => from[k] - by * (from[k] - p));
   view.zoom = zoom;
   aim();
@@ -259,13 +260,18 @@ function showWhole() {
   aim();
 }
 
+// The middle of the canvas, without the scales.
+function viewMiddle() {
+  return [view.width / 2, (view.height - strip) / 2];
+}
+
 // Set the view: the fitted picture, zoomed about the middle and moved.
 function aim() {
   fitWhole();
-  const middle = [view.width / 2, (view.height - strip) / 2];
+  const [mx, my] = viewMiddle();
   view.scale *= view.zoom;
-  view.x = middle[0] + view.zoom * (view.x - middle[0]) + view.pan[0];
-  view.y = middle[1] + view.zoom * (view.y - middle[1]) + view.pan[1];
+  view.x = mx + view.zoom * (view.x - mx) + view.pan[0];
+  view.y = my + view.zoom * (view.y - my) + view.pan[1];
   view.block = Math.min(0.045 * Math.min(view.width, view.height), Math.max(7, 0.45 * view.scale * slideGap()));
   drawStill();
 }

@@ -31,6 +31,22 @@ static char *joined(const char *const *parts)
     return text;
 }
 
+/* A text as a JSON string. */
+static char *quoted(const char *text)
+{
+    char *json = text ? malloc(6 * strlen(text) + 3) : NULL, *end = json;
+    if (!json) return NULL;
+    *end++ = '"';
+    for (; *text; text++)
+        if (*text == '"' || *text == '\\' || (unsigned char)*text < ' ')
+            end += sprintf(end, "\\u%04x", (unsigned)(unsigned char)*text);
+        else
+            *end++ = *text;
+    *end++ = '"';
+    *end = '\0';
+    return json;
+}
+
 /* Names of a text, one per line; the text is cut up. */
 static size_t split(char *text, const char *names[most_off])
 {
@@ -94,6 +110,40 @@ char *live_controls(const char *text, const char *name)
     char *controls = model ? fbd_model_controls(model, errors) : NULL;
     fbd_model_free(model);
     return answer(errors, "controls", controls);
+}
+
+/* The numbers of a text, divided by blanks; NULL when memory is out. */
+static double *read_numbers(const char *text, size_t *count)
+{
+    double *numbers = malloc((strlen(text) / 2 + 1) * sizeof *numbers);
+    *count = 0;
+    for (char *end; numbers; text = end) {
+        numbers[*count] = strtod(text, &end);
+        if (end == text) break;
+        ++*count;
+    }
+    return numbers;
+}
+
+char *live_pulled(const char *text, const char *name, const char *body, const char *path, double x, double y,
+                  double stiffness, double from, double to)
+{
+    fbd_errors *errors = fbd_errors_new();
+    size_t count;
+    double *numbers = read_numbers(path, &count);
+    const fbd_pull pull = {.body = body,
+                           .at = {x, y},
+                           .stiffness = stiffness,
+                           .from = from,
+                           .to = to,
+                           .path = numbers,
+                           .count = count / 3};
+    fbd_model *model = fbd_model_parse(text, strlen(text), name, NULL, 0, errors);
+    char *pulled = model ? fbd_model_pulled(model, &pull, errors) : NULL, *json = quoted(pulled);
+    fbd_free(pulled);
+    fbd_model_free(model);
+    free(numbers);
+    return answer(errors, "text", json);
 }
 
 /* ---- runs */
@@ -192,22 +242,6 @@ char *live_cost(const char *text, const char *name, const char *off, double budg
 }
 
 /* ---- derivations and answers */
-
-/* A text as a JSON string. */
-static char *quoted(const char *text)
-{
-    char *json = text ? malloc(6 * strlen(text) + 3) : NULL, *end = json;
-    if (!json) return NULL;
-    *end++ = '"';
-    for (; *text; text++)
-        if (*text == '"' || *text == '\\' || (unsigned char)*text < ' ')
-            end += sprintf(end, "\\u%04x", (unsigned)(unsigned char)*text);
-        else
-            *end++ = *text;
-    *end++ = '"';
-    *end = '\0';
-    return json;
-}
 
 char *live_check_hand(const char *text, const char *name)
 {

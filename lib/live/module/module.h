@@ -20,6 +20,10 @@ char *live_text(const char *text, const char *name, const char *off);
 /* {errors, controls}: the value of fbd_model_controls, or null. */
 char *live_controls(const char *text, const char *name);
 
+/* {errors, text}: the text with a pull (fbd_pull) of the body by its path, numbers divided by blanks, or null. */
+char *live_pulled(const char *text, const char *name, const char *body, const char *path, double x, double y,
+                  double stiffness, double from, double to);
+
 /* {errors, data}: the value of fbd_result_page_data with at least `rows` regular rows (see fbd_recording), or
  * null without a run. */
 char *live_run(const char *text, const char *name, const char *off, double rows);

@@ -38,7 +38,7 @@ function chartsAreOthers() {
 
 // The contents of the tables without the time-dependent numbers.
 function tablesSay(bodies) {
-  const equations = bodies.map((body) => body.equations.map((equation) => [equation, livingTerms(equation)]));
+  const equations = bodies.map((body) => body.equations.map((equation) => [equation, writtenTerms(equation)]));
   return JSON.stringify([equations, bodies.map((body) => body.arrows)]);
 }
 
@@ -48,12 +48,24 @@ function makeup({ columns, bodies }) {
   return JSON.stringify([columns.map(({ n, u }) => [n, u]), made]);
 }
 
+// While something is dragged the view and the scale of the arrows stay; true then.
+function keepStill(kept) {
+  if (!hold.grip && !pull.at) return false;
+  Object.assign(view, kept, { force: hold.force });
+  drawStill();
+  return true;
+}
+
 // Show another run of the page's model. View, time and checkboxes are kept if the structure is the same. The scene and
 // the numbers beside it are updated first.
 function showAgain(data) {
   const { t } = player, said = tablesSay(chosenBodies()), whole = plotWindow.from === run.start && plotWindow.to === run.end;
   if (makeup(data) !== makeup(run)) {
+    const kept = { scale: view.scale, x: view.x, y: view.y }, names = ({ bodies }) => bodies.map(({ name }) => name).join();
+    const same = names(data) === names(run), box = element("body"), { value } = box;
     showRun(data);
+    if (same && value !== box.value) { box.value = value; makeDetails(chosenBodies()); }
+    keepStill(kept);
     seek(t);
     return;
   }
@@ -63,7 +75,7 @@ function showAgain(data) {
   Object.assign(plotWindow, kept ? { from, to } : { from: run.start, to: run.end });
   Object.assign(element("scrub"), { min: run.start, max: run.end });
   measure();
-  if (pull.body) drawStill(); else aim(); // the view stays while a body is dragged
+  if (!keepStill({})) aim();
   if (tablesSay(chosenBodies()) !== said) makeTables(chosenBodies());
   if (chartsAreOthers()) makeCharts(chosenBodies()); else redrawChartsSoon();
   seek(t);

@@ -26,6 +26,8 @@ function controlList(controls) {
   const list = [];
   for (const control of controls.parameters) list.push([`parameters.${control.name}`, control]);
   for (const control of controls.initial) if (control.written) list.push([`initial.${control.name}`, control]);
+  for (const key of ["masses", "slopes"])
+    for (const control of controls[key]) if (control.written?.number !== undefined) list.push([`${key}.${control.name}`, control]);
   list.push(["until", controls.until], ["tolerance", controls.tolerance], ["method", controls.method]);
   return list;
 }
@@ -43,14 +45,14 @@ function moved(key, value, underWay = false) {
   setEditor(text);
 }
 
-// Make the sliders; initial values not given as a number are folded away.
+// Make the sliders; initial values not given as a number are folded away, as are masses and slopes that are no parameters.
 function makeKnobs() {
   const given = [], zero = [];
   knobs.clear();
   for (const [key, control] of controlList(bench.controls)) {
     if (key === "method" || key === "tolerance") continue;
-    const unsaid = key.startsWith("initial") && control.written.number === undefined;
-    (unsaid ? zero : given).push(makeKnob(key, control, bench.base, moved));
+    const folded = /^(masses|slopes)/.test(key) || (key.startsWith("initial") && control.written.number === undefined);
+    (folded ? zero : given).push(makeKnob(key, control, bench.base, moved));
   }
   element("live-knobs").replaceChildren(...given);
   element("live-more").replaceChildren(...zero);
@@ -109,8 +111,25 @@ function takeControls(text, controls) {
 
 // ---- runs
 
-function say(text, css = "") {
-  Object.assign(element("live-says"), { textContent: text, className: css });
+function say(key, values = [], css = "") {
+  bench.said = { key, values };
+  Object.assign(element("live-says"), { textContent: phrase(key, ...values), className: css, lang: "" });
+}
+
+// The first error of the library, whose messages are English; `key` is said without one.
+function sayLibrary(errors, key = "live-no-run") {
+  const wrong = errors.find((note) => note.severity === "error");
+  say(key, [], "error");
+  if (!wrong) return;
+  bench.said = null;
+  Object.assign(element("live-says"), { textContent: wrong.message, lang: "en" });
+}
+
+// Say everything again in the language that has been chosen.
+function speakLive() {
+  for (const knob of knobs.values()) nameSlider(knob.control.name, knob);
+  if (bench.said) element("live-says").textContent = phrase(bench.said.key, ...bench.said.values);
+  showCommand();
 }
 
 function answeredControls(text, answer) {
@@ -119,7 +138,7 @@ function answeredControls(text, answer) {
   showNotes(errors);
   if (controls) takeControls(text, controls);
   element("live-side").classList.toggle("stale", !controls);
-  if (!controls) say("not a model yet: see the notes on the text", "error");
+  if (!controls) say("live-no-model", [], "error");
 }
 
 function answeredRun(question, answer) {
@@ -127,8 +146,8 @@ function answeredRun(question, answer) {
   if (question.off) showNotes(errors); // positions are valid: removing effects keeps the line numbers
   const wrong = errors.find((note) => note.severity === "error");
   if (data) showAgain(data);
-  if (wrong || !data) say(wrong ? wrong.message : "there is no run", "error");
-  else say(`ran in ${(performance.now() - bench.since).toFixed(0)} ms`);
+  if (wrong || !data) sayLibrary(errors);
+  else say("live-ran", [(performance.now() - bench.since).toFixed(0)]);
   bench.shown++;
   bench.runFor = question.text + question.off;
   element("live-stop").hidden = true;
@@ -156,10 +175,10 @@ function askForRun(text = editor.value, rows = 0) {
 function showCosts() {
   if (!element("live-costs").open) return;
   const picture = element("live-diagram"), says = element("live-cost-says");
-  says.textContent = "measuring…";
-  bench.coster = bench.coster || makeAsker(([share]) => { says.textContent = `measuring… ${Math.round(100 * share)} %`; });
+  says.textContent = phrase("live-measuring");
+  bench.coster = bench.coster || makeAsker(([share]) => { says.textContent = phrase("live-measured", Math.round(100 * share)); });
   bench.coster.ask("cost", [editor.value, parts.name, offNames()], (svg) => {
-    says.textContent = svg ? "" : "nothing to measure: the scene does not run";
+    says.textContent = svg ? "" : phrase("live-no-costs");
     picture.hidden = !svg;
     if (svg) picture.src = `data:image/svg+xml,${encodeURIComponent(svg)}`;
   }, [3]);
@@ -170,7 +189,7 @@ function showCosts() {
 function stopRun() {
   bench.runner.stop();
   element("live-stop").hidden = true;
-  say("stopped", "error");
+  say("live-stopped", [], "error");
 }
 
 function connectBench() {
@@ -187,6 +206,7 @@ function connectBench() {
   element("live-measure").addEventListener("click", showCosts);
   element("live-stop").addEventListener("click", stopRun);
   element("live-reset").addEventListener("click", () => { setModel(ownText(), []); });
+  listen("language", "change", speakLive);
   connectShare();
   connectValues();
 }
@@ -207,14 +227,15 @@ function ownText() {
 }
 
 async function startBench() {
+  say("live-loading");
   setEditor(parts.text);
   connectBench();
   await compileEngine();
   bench.runner = makeAsker(([t, until]) => {
     element("live-stop").hidden = false;
-    say(`t = ${show(t)} s of ${show(until)} s`);
+    say("live-running", [show(t), show(until)]);
   });
-  bench.runner.failed = (message) => say(`the run has failed: ${message}`, "error");
+  bench.runner.failed = (message) => say("live-failed", [message], "error");
   const controls = await new Promise((answered) => { bench.runner.ask("controls", [parts.text, parts.name], answered); });
   bench.first = JSON.parse(controls).controls;
   bench.own = ownText();
@@ -222,5 +243,5 @@ async function startBench() {
   setModel(linked ? linked.text : bench.own, linked ? linked.off : []);
 }
 
-startBench().catch((error) => say(`this browser cannot run the library: ${error.message}`, "error"));
+startBench().catch((error) => say("live-no-library", [error.message], "error"));
 window.fbd.bench = bench;

@@ -54,7 +54,6 @@ function makeKnob(key, control, text, tell) {
   name.textContent = control.name;
   name.title = control.description || "";
   slider.type = "range";
-  slider.setAttribute("aria-label", `${control.name}, slider`);
   box.type = "text";
   box.spellcheck = false;
   box.setAttribute("aria-label", control.name);
@@ -66,8 +65,13 @@ function makeKnob(key, control, text, tell) {
   box.addEventListener("change", () => tell(key, box.value.trim()));
   row.append(name, slider, box);
   knobs.set(key, knob);
+  nameSlider(control.name, knob);
   setKnob(key, control, text);
   return row;
+}
+
+function nameSlider(name, { slider }) {
+  slider.setAttribute("aria-label", phrase("live-slider", name));
 }
 
 function setKnob(key, control, text) {

@@ -1,88 +1,153 @@
 "use strict";
 
-// At the start of the run a body can be dragged to another position: its initial coordinates change as by their sliders,
-// and the model is run again. At other times a drag moves the view.
+// While the page plays, a body is pulled by the pointer, or by keys: by a spring from the grabbed point to the hand, with a
+// damper beside it. The library writes them into the text as a force with the path of the hand as a table
+// (fbd_model_pulled), and the model is run again: the force has its arrow, its term and its work as every other one. After
+// the release the motion goes on. The hand reaches the pointer `lag` later: its path grows into the future, and the past stays.
 
-const pull = { body: null, from: null, far: false };
+const lag = 50; // ms between two points of the path
+const pull = { body: 0, name: "", text: "", shown: "", path: [], at: null, timer: 0 }; // at: null while nothing is pulled
 
-// The keys of the sliders of a body's initial coordinates; null if one of them has none, or a fixed one.
-function startKnobs(body) {
-  const own = body.coordinates.map((c) => `initial.${run.columns[c].n}`);
-  const free = ["slide", "pivot", "particle", "planar"].includes(body.motion) && own.every((key) => knobs.has(key) && !knobs.get(key).slider.disabled);
-  return free ? own : null;
+// Of the spring: such that the arrow of its force, to the scale of the other ones, reaches to the hand.
+function stiffnessOfPull() {
+  return view.scale / pixelsPerForce();
 }
 
-// The outlines of a body on the canvas, as functions that trace them.
-function outlinesOf(body, frame) {
-  const onCanvas = (points) => points.map((point) => toScreen(shapePoint(body, frame, point)));
-  if (!isSized(body) && body.line) return [() => path(blockCorners(frame), true)];
-  if (body.joints.length > 1) return [() => path(body.joints.map((point) => toScreen(place(frame, ...point))), true)];
-  return body.shapes.map((shape) => () => {
-    if (shape.corners) path(onCanvas(shape.corners), shape.kind === "polygon");
-    else disc(onCanvas([shape.center])[0], Math.max((shape.radius || 0) * view.scale, 6));
-  });
+function toWorld([x, y]) {
+  return [(x - view.x) / view.scale, (view.y - y) / view.scale];
 }
 
-// The body at a point of the canvas, within 8 pixels, that can be dragged; the topmost first.
-function bodyAt([x, y]) {
-  if (!bench.controls || player.playing || now() !== run.start) return null;
-  const row = rowAt(run.start);
-  pen.setLineDash([]);
-  pen.lineWidth = 16;
-  return [...run.bodies].reverse().find((body) => startKnobs(body) && outlinesOf(body, frameAt(body, run.start, row)).some((trace) => {
-    trace();
-    return pen.isPointInPath(x * view.ratio, y * view.ratio) || pen.isPointInStroke(x * view.ratio, y * view.ratio);
-  })) || null;
+// The grabbed point at a time, in the world.
+function grabbedAt(t) {
+  return place(frameAt(run.bodies[pull.body], t, rowAt(t)), ...pull.point);
 }
 
-// The changes of the coordinates that bring the grabbed point from one place of the canvas to another: along the slide,
-// about the axis, or in the plane.
-function coordinateChanges(body, from, to) {
-  const row = rowAt(run.start), dx = (to[0] - from[0]) / view.scale, dy = (from[1] - to[1]) / view.scale;
-  if (body.motion === "pivot") {
-    const frame = frameAt(body, run.start, row), [x, y] = toScreen([frame.x, frame.y]);
-    const angle = Math.atan2(y - to[1], to[0] - x) - Math.atan2(y - from[1], from[0] - x);
-    return [Math.atan2(Math.sin(angle), Math.cos(angle))];
+// Where the hand is at a time of its path.
+function handAt(t) {
+  const k = pull.path.findIndex(([time]) => time > t), b = pull.path[k], a = pull.path[Math.max(k, 0) - 1] || pull.path[pull.path.length - 1];
+  if (!b || b === pull.path[0]) return (b || a).slice(1);
+  const share = (t - a[0]) / (b[0] - a[0]);
+  return [a[1] + share * (b[1] - a[1]), a[2] + share * (b[2] - a[2])];
+}
+
+function hidePull() {
+  run.links = run.links.filter((link) => !link.pulls);
+}
+
+// The spring on the canvas, from the grabbed point to the hand, on a slide along its line.
+function showPull() {
+  const t = now(), from = grabbedAt(t), hand = handAt(t), { line } = run.bodies[pull.body];
+  if (line && line.on < 0) {
+    const away = (hand[0] - from[0]) * line.along[0] + (hand[1] - from[1]) * line.along[1];
+    hand.splice(0, 2, from[0] + away * line.along[0], from[1] + away * line.along[1]);
   }
-  if (body.motion !== "slide") return [dx, dy];
-  const { along, on } = body.line, { c, s } = on < 0 ? { c: 1, s: 0 } : frameAt(run.bodies[on], run.start, row);
-  return [dx * (c * along[0] - s * along[1]) + dy * (s * along[0] + c * along[1])];
+  hidePull();
+  run.links.push({ body: pull.body, point: pull.point, partner: -1, anchor: hand, kind: "spring", pulls: true });
 }
 
-function pullTo(at, underWay) {
-  const changes = coordinateChanges(pull.body, pull.from, at);
-  changes.forEach((change, k) => {
-    const { key, number, knob } = pull.knobs[k];
-    moved(key, writtenAs(knob, number + change / knob.quantity.factor), underWay);
-  });
+// The force and the work of the hand so far.
+function sayPull(key) {
+  const body = run.bodies[pull.body], arrow = body.arrows.find(({ name }) => name === pull.name), t = now(), row = rowAt(t);
+  if (!arrow) return;
+  const [fx, fy] = arrow.arrow.map((c) => readAt(c, t, row)), work = arrow.work < 0 ? 0 : readAt(arrow.work, t, row);
+  element("live-says").setAttribute("aria-live", pull.at ? "off" : "polite"); // not read out twenty times a second
+  say(key, [`${body.name}.${arrow.name}`, `${show(Math.hypot(fx, fy), 3)} ${unit(run.units.force)}`, `${show(work, 3)} ${unit(run.units.energy)}`]);
 }
 
-function grab(event) {
-  const at = [event.offsetX, event.offsetY], body = fingers.size ? null : bodyAt(at);
-  if (!body) return;
+function takePulled([made, controls, motion]) {
+  const { errors, text } = JSON.parse(made), { name } = run.bodies[pull.body];
+  if (!text) {
+    stopPull();
+    showNotes(errors);
+    sayLibrary(errors);
+    return;
+  }
+  setEditor(pull.shown = text);
+  answeredControls(text, controls);
+  const known = pull.name;
+  pull.name = bench.controls.effects.filter((effect) => effect.body === name && /^pull(_\d+)?$/.test(effect.name)).pop()?.name;
+  if (motion) answeredRun({ text, off: offNames() }, motion);
+  else bench.shown++;
+  if (pull.at) showPull();
+  if (pull.at && pull.name !== known) pick(`${name}:${pull.name}`); // with its term in the equations
+  sayPull(pull.at ? "live-pulling" : "live-pulled");
+}
+
+// Run the text with the pull so far; the hand stays where it is until `until`.
+function askForPull(until, rows) {
+  const { text, body, point, stiffness, grab: from } = pull, { pin, name } = run.bodies[body];
+  bench.since = performance.now();
+  bench.coster?.stop();
+  bench.runner.ask("pulled", [text, parts.name, offNames(), name, pull.path.flat().join(" ")], takePulled,
+    [rows, point[0] + pin[0], point[1] + pin[1], stiffness, from, until]);
+}
+
+// Let the hand follow the pointer from now on.
+function pullFurther() {
+  if (editor.value !== pull.shown) stopPull(); // another control has changed it
+  if (!pull.at) return;
+  if (!player.playing || now() < pull.grab) { letGo(); return; } // at the end of the run, or by another control
+  const t = now(), step = lag / 1000 * player.speed, last = pull.path[pull.path.length - 1], at = Math.max(t, last[0]);
+  showPull();
+  sayPull("live-pulling");
+  if (Math.hypot(pull.at[0] - last[1], pull.at[1] - last[2]) * view.scale < 1) return;
+  if (at > last[0]) pull.path.push([at, last[1], last[2]]);
+  pull.path.push([at + step, ...pull.at]);
+  askForPull(run.end, rowsUnderWay);
+}
+
+function stopPull() {
+  clearInterval(pull.timer);
+  hidePull();
+  pull.at = hold.grip = null;
+}
+
+// End the pull at the present time: the motion goes on without the hand.
+function letGo() {
+  if (!pull.at) return;
+  stopPull();
+  const until = Math.max(now(), pull.path[pull.path.length - 1][0]);
+  if (pull.path.length > 1) askForPull(until, 0);
+  pick("");
+}
+
+// Begin to pull body `index` at a point of the world.
+function beginPull(index, [x, y]) {
+  const body = run.bodies[index], frame = frameAt(body, now(), rowAt(now()));
+  const point = ["particle", "track", "slide"].includes(body.motion) && !(body.line && body.line.on < 0) ? body.G : inFrame(frame, [x, y]);
+  Object.assign(pull, { body: index, point, text: editor.value, shown: editor.value, name: "" });
+  Object.assign(pull, { grab: now(), stiffness: stiffnessOfPull(), path: [[now(), x, y]], at: [x, y] });
+  hold.force = view.force;
+  pull.timer = setInterval(pullFurther, lag);
+  showPull();
+}
+
+function gripOfPull(at, reach, begins) {
+  const body = player.playing && bodyAt(at, () => true);
+  if (!body) return null;
+  if (begins) beginPull(body.index, toWorld(at));
+  return (to, underWay) => {
+    if (pull.at) pull.at = toWorld(to);
+    if (!underWay) letGo();
+  };
+}
+
+// ---- keys: g grabs the chosen body, or the first one, at G, and lets it go; arrows move the hand
+
+const handSteps = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+
+function pullByKey(event) {
+  if (!bench.controls || takesKey(event.target, event.key) || event.ctrlKey || event.metaKey || event.altKey) return;
+  const step = pull.at && handSteps[event.key];
+  if (event.key === "g" && !pull.at && !player.playing) say("live-pull-plays");
+  else if (event.key === "g" && !pull.at) {
+    const body = run.bodies[chosenBody() || 0];
+    beginPull(body.index, place(frameAt(body, now(), rowAt(now())), ...body.G));
+  } else if (pull.at && (event.key === "g" || event.key === "Escape")) letGo();
+  else if (step) pull.at = pull.at.map((x, k) => x + 20 * step[k] / view.scale);
+  else return;
+  event.preventDefault();
   event.stopImmediatePropagation();
-  canvas.setPointerCapture(event.pointerId);
-  const grabbed = startKnobs(body).map((key) => ({ key, knob: knobs.get(key), number: knobs.get(key).quantity.number }));
-  Object.assign(pull, { body, from: at, far: false, knobs: grabbed });
 }
 
-function drag(event) {
-  const at = [event.offsetX, event.offsetY];
-  canvas.style.cursor = pull.body || bodyAt(at) ? "move" : "";
-  if (!pull.body) return;
-  event.stopImmediatePropagation();
-  pull.far = pull.far || Math.hypot(at[0] - pull.from[0], at[1] - pull.from[1]) >= 6;
-  if (pull.far) pullTo(at, true);
-}
-
-function drop(event) {
-  if (!pull.body) return;
-  event.stopImmediatePropagation();
-  const at = [event.offsetX, event.offsetY];
-  if (pull.far) pullTo(at, false);
-  else pick(arrowAt(at, event.pointerType === "mouse" ? 8 : 24));
-  pull.body = null; // the run that follows is fitted again
-}
-
-for (const [kind, action] of [["pointerdown", grab], ["pointermove", drag], ["pointerup", drop]]) canvas.addEventListener(kind, action, { capture: true });
-canvas.addEventListener("pointercancel", () => { pull.body = null; });
+addEventListener("keydown", pullByKey, { capture: true });

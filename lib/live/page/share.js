@@ -22,15 +22,15 @@ function saveText() {
 
 // A calculation note of the model that is shown, as HTML.
 function saveNote() {
-  const button = element("live-note"), said = "Save calculation note";
-  button.textContent = "calculating…";
+  const button = element("live-note"), ready = () => { button.textContent = phrase("live-note"); };
+  button.textContent = phrase("live-calculating");
   bench.writer = bench.writer || makeAsker(() => {});
-  bench.writer.failed = (message) => { button.textContent = said; say(`the note has failed: ${message}`, "error"); };
+  bench.writer.failed = (message) => { ready(); say("live-note-failed", [message], "error"); };
   bench.writer.ask("note", [editor.value, parts.name, offNames()], (answer) => {
     const { errors, note } = JSON.parse(answer);
-    button.textContent = said;
+    ready();
     if (note) download(note, "text/html", parts.name.replace(/(\.ya?ml)?$/, "-note.html"));
-    else say(errors.find(({ severity }) => severity === "error")?.message ?? "there is no note", "error");
+    else sayLibrary(errors, "live-no-note");
   });
 }
 
@@ -92,7 +92,7 @@ function commandLine() {
   const changes = [];
   for (const [key, control] of controlList(first)) {
     const other = known.get(key), spot = control.written, written = other?.written;
-    if (!spot || !written || written.to === undefined || key.startsWith("initial")) continue;
+    if (!spot || !written || written.to === undefined || !(key.startsWith("parameters") || options[key])) continue;
     const value = bench.base.slice(written.from, written.to);
     if (spot.to !== undefined && value === parts.text.slice(spot.from, spot.to)) continue;
     changes.push([spot, spot.to === undefined ? spot.before + value + spot.behind : value]);
@@ -105,13 +105,12 @@ function commandLine() {
 }
 
 function showCommand() {
-  element("live-command").textContent = commandLine() || `fbd-run ${quoted(parts.name)}   # as saved by Save YAML`;
+  element("live-command").textContent = commandLine() || `fbd-run ${quoted(parts.name)}   # ${phrase("live-as-saved")}`;
 }
 
 function copy(text, button) {
-  const said = button.textContent;
-  navigator.clipboard.writeText(text).then(() => { button.textContent = "copied"; }, () => { window.prompt("", text); });
-  setTimeout(() => { button.textContent = said; }, 1200);
+  navigator.clipboard.writeText(text).then(() => { button.textContent = phrase("live-copied"); }, () => { window.prompt("", text); });
+  setTimeout(() => { button.textContent = phrase(button.dataset.text); }, 1200);
 }
 
 function connectShare() {

@@ -30,7 +30,7 @@ function foundItem(key, knob, solution) {
   button.textContent = `${knob.control.name} = ${written}`;
   button.addEventListener("click", () => moved(key, written));
   item.append(button, ` ±${show(solution.error / knob.quantity.factor, 2)} ${knob.quantity.unit}`.trimEnd());
-  if (solution.below) item.append(`; below: ${solution.below}; above: ${solution.above}`);
+  if (solution.below) item.append(phrase("live-below-above", solution.below, solution.above));
   return item;
 }
 
@@ -43,18 +43,16 @@ function showFound(answer) {
   if (!knob) return;
   list.append(...find.solutions.map((solution) => foundItem(key, knob, solution)));
   markSlider(knob, find.solutions);
-  const within = `${show(find.step / knob.quantity.factor, 3)} ${knob.quantity.unit}`.trim();
-  const range = `between ${show(find.from / knob.quantity.factor)} and ${show(find.to / knob.quantity.factor)} ${knob.quantity.unit}`.trim();
-  const count = `${find.solutions.length || "no"} ${find.solutions.length === 1 ? "value" : "values"}`;
-  says.textContent = `${count} ${range}; ${find.runs} runs, of two values closer than ${within} both may be missed`;
+  const own = (value) => `${show(value / knob.quantity.factor)} ${knob.quantity.unit}`.trim();
+  says.textContent = phrase("live-found", find.solutions.length, own(find.from), own(find.to), find.runs, own(Number(find.step.toPrecision(3))));
 }
 
 function askForValues(event) {
   event.preventDefault();
   const says = element("live-find-says");
-  finder.asker = finder.asker || makeAsker(([share, all]) => { says.textContent = `searching… ${Math.round(100 * share / all)} %`; });
-  finder.asker.failed = (message) => Object.assign(says, { className: "error", textContent: `the search has failed: ${message}` });
-  says.textContent = "searching…";
+  finder.asker = finder.asker || makeAsker(([share, all]) => { says.textContent = phrase("live-searched", Math.round(100 * share / all)); });
+  finder.asker.failed = (message) => Object.assign(says, { className: "error", textContent: phrase("live-search-failed", message) });
+  says.textContent = phrase("live-searching");
   finder.asker.ask("find", [editor.value, parts.name, element("live-question").value], showFound, [element("live-statics").checked ? 1 : 0]);
 }
 

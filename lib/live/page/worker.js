@@ -39,7 +39,15 @@ function both([text, name, off], rows) {
   return [controls, controls.endsWith("\"controls\":null}") ? null : call("run", [text, name, off], rows)];
 }
 
+// The text with a pull, its controls and its run.
+function pulled([text, name, off, body, way], [rows, ...numbers]) {
+  const made = call("pulled", [text, name, body, way], numbers), own = JSON.parse(made).text;
+  return own === null ? [made] : [made, ...both([own, name, off], [rows])];
+}
+
+const several = { both, pulled }; // questions that are answered by several functions of the library
+
 self.onmessage = ({ data }) => {
   if (data.module) begin(data);
-  else postMessage({ answer: data.call === "both" ? both(data.texts, data.numbers) : call(data.call, data.texts, data.numbers || []) });
+  else postMessage({ answer: several[data.call] ? several[data.call](data.texts, data.numbers) : call(data.call, data.texts, data.numbers || []) });
 };
