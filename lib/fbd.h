@@ -161,6 +161,7 @@ FBD_API void fbd_model_free(fbd_model *model);
  * `*value` that is not finite, makes the forces not finite, so that the run fails. */
 typedef int fbd_force_callback(void *context, double t, const double *y, double *value);
 
+/* `function` NULL: no callback computes the input, but its value is set between steps (fbd_simulation_set_input). */
 typedef struct fbd_callback {
     const char *input;
     fbd_force_callback *function;
@@ -169,7 +170,8 @@ typedef struct fbd_callback {
 
 /* The model with the same values, in which callbacks compute some of its `inputs`, for example forces. Derivatives of a
  * callback are central differences. Error bars hold for the callback as it is, called in their second run as well. For
- * such an input fbd_parameter.value is NAN. There are no C program and no derivatives by it. NULL with notes in `errors`:
+ * such an input fbd_parameter.value is NAN. There are no C program and no derivatives by it. An input without `function`
+ * has in each state a value of its own, at first that of the file: fbd_state_set and fbd_state_get name it. NULL with notes in `errors`:
  * `unknown-input`, `bad-call`, or the notes of the file. */
 FBD_API fbd_model *fbd_model_with_callbacks(const fbd_model *model, const fbd_callback *callbacks,
                                             size_t count, fbd_errors *errors);
@@ -410,6 +412,17 @@ FBD_API fbd_outcome fbd_simulation_advance(fbd_simulation *simulation);
  * Returns false for a time outside it or a state of another model. The trajectory is not affected. */
 FBD_API void fbd_simulation_interval(const fbd_simulation *simulation, double *from, double *to);
 FBD_API bool fbd_simulation_state(fbd_simulation *simulation, double t, fbd_state *state);
+
+/* Set an input, from the time `t` of the last step on, to a value in its unit. The integration begins anew at the state of
+ * that time: events after it are forgotten, friction, ropes and contacts are decided as at a start, error bars end, and
+ * the simulation can be advanced, but not recorded or repeated (fbd_simulation_run, fbd_simulation_again). Statistics are
+ * sums, and fbd_simulation_balanced is of the worst part. The value that the input has already changes nothing. The input
+ * is one without `function` of fbd_model_with_callbacks; the file is not compiled. Returns false with notes in `errors`
+ * and no change: `unknown-input`; `fixed-input` for a constant of the model, or one that a callback computes; `bad-call`
+ * for a value that is not finite, a time outside the last step, or a motion that has ended; or the id of
+ * fbd_state_close, where no motion continues with this value. */
+FBD_API bool fbd_simulation_set_input(fbd_simulation *simulation, double t, const char *name, double value,
+                                      fbd_errors *errors);
 
 FBD_API size_t fbd_simulation_event_count(const fbd_simulation *simulation);
 /* Event `index`, in the order of time; `name` and `detail` live as long as the simulation. */

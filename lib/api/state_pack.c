@@ -35,10 +35,17 @@ static size_t memory_count(const struct plan *plan)
     return count;
 }
 
+static size_t held_count(const struct scene *scene)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < scene->parameter_count; i++) count += scene->parameters[i].call.held;
+    return count;
+}
+
 static size_t size_of(const struct fbd_model *model)
 {
     return 1 + plan_size(&model->plan) + memory_count(&model->plan) +
-           numbers_of_a_coupling * coupling_count(model);
+           numbers_of_a_coupling * coupling_count(model) + held_count(model->scene);
 }
 
 struct packing {
@@ -76,6 +83,8 @@ size_t fbd_state_pack(const fbd_state *state, double *numbers, size_t room)
     for (size_t i = 0; (branch = find_memory(plan, i)) >= 0; i++) put(&packing, state->branch[branch]);
     for (size_t i = 0; i < coupling_count(state->model); i++)
         put_coupling(&packing, &state->tree->couplings[i]);
+    for (size_t i = 0; i < state->model->scene->parameter_count; i++)
+        if (state->model->scene->parameters[i].call.held) put(&packing, state->held[i]);
     return packing.count;
 }
 
@@ -126,6 +135,9 @@ bool fbd_state_unpack(fbd_state *state, const double *numbers, size_t count)
     for (size_t i = 0; (branch = find_memory(plan, i)) >= 0; i++) state->branch[branch] = (int)memories[i];
     for (size_t i = 0; i < coupling_count(state->model); i++)
         take_coupling(couplings + numbers_of_a_coupling * i, &state->tree->couplings[i]);
+    const double *held = numbers + count - held_count(state->model->scene);
+    for (size_t i = 0; i < state->model->scene->parameter_count; i++)
+        if (state->model->scene->parameters[i].call.held) state->held[i] = *held++;
     state->settled = false;
     return true;
 }
