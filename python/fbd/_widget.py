@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import importlib
 import math
+import os
 from typing import TYPE_CHECKING, Any, Callable, Dict, Optional
 
 from ._notes import Error, complaint
@@ -41,7 +42,8 @@ class Sliders:
             for name, each in ranged.items()}
         self._picture = widgets.HTML()
         self.widget = widgets.VBox([*self._sliders.values(), self._picture])
-        self.model, self.shown = model, None
+        self.model: "Model" = model
+        self.shown: Any = None
         self._draw()
         for slider in self._sliders.values():
             slider.observe(lambda change: self._move(), names="value")
@@ -54,15 +56,15 @@ class Sliders:
     def _move(self) -> None:
         file = self._file
         try:
-            self.model = type(file).parse(self._source, file._name, **{**file._parameters, **self.values})
+            self.model = type(file).parse(self._source, os.fsdecode(file._name), **{**file._parameters, **self.values})
             self._draw()
         except Error as error:
             self._picture.value = f"<pre>{html.escape(str(error))}</pre>"
 
     def _draw(self) -> None:
         self.shown = self._show(self.model)
-        as_html = getattr(self.shown, "_repr_html_", None)
-        self._picture.value = as_html() if as_html is not None else f"<pre>{html.escape(str(self.shown))}</pre>"
+        page = hasattr(self.shown, "_repr_html_")
+        self._picture.value = self.shown._repr_html_() if page else f"<pre>{html.escape(str(self.shown))}</pre>"
 
     def _ipython_display_(self) -> None:
         importlib.import_module("IPython.display").display(self.widget)
