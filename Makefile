@@ -65,7 +65,7 @@ fuzz: $(BUILD)-fuzz/build.ninja $(BUILD)-count/build.ninja
 endif
 
 # fbd-run for other machines, by cross compilers and qemu: TARGETS of i686 (32 bits), s390x (big endian), musl. Every model of
-# the gallery does there what it does here. Some minutes for each. s390x and musl have not been tried yet.
+# the gallery does there what it does here. Some minutes for each.
 TARGETS = i686
 portability: all
 	.ci/install-packages run portability

@@ -30,7 +30,7 @@ class Sliders:
     def __init__(self, model: "Model", show: Optional[Callable[["Model"], Any]]):
         widgets = _ipywidgets()
         self._file, self._source = model, model._read_again().decode("utf-8")
-        self._show: Callable[["Model"], Any] = show if show is not None else type(model).run
+        self._show: Callable[["Model"], Any] = show if show is not None else (lambda now: now.run())
         ranged = {name: each for name, each in model.parameters.items()
                   if not each.derived and math.isfinite(each.low) and math.isfinite(each.high)}
         if not ranged:
