@@ -172,7 +172,8 @@ static bool make_column(const struct building *building, size_t column, double *
     const struct fbd_linearization *linear = building->system->linear;
     const size_t wide = plan_size(&building->model->plan), input = building->inputs[column];
     const struct input_call *call = &linear->model->scene->parameters[input].call;
-    if (input_varies(call)) return refuse_varying(building, building->system->inputs[column].name, call->held);
+    if (input_varies(call))
+        return refuse_varying(building, building->system->inputs[column].name, call->held);
     struct fbd_model *by = model_by_input(linear->state, input);
     if (!by) return false;
     bool meant = !equilibrium_refuse_reels(by, NULL);
