@@ -70,7 +70,8 @@ static double slip_along(const struct fbd_model *model, const struct model_absol
 
 /* ---- inputs that are no constants
  *
- * A value that a state holds has no variation. A callback u(t, y) has no exact derivatives. Its variation is the central difference
+ * A value that a state holds has no variation. A callback u(t, y) has no exact derivatives; its variation is the central
+ * difference
  *
  *   u' = (u(t + h dt, y + h dy) - u(t - h dt, y - h dy)) / (2 h),
  *
