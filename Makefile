@@ -247,7 +247,7 @@ wheel: all
 sdist:
 	packaging/sdist $(BUILD)-sdist
 
-# That pip builds it elsewhere, and that it runs a model; some two minutes.
+# That pip builds it elsewhere, and that it runs a model; some minutes.
 sdist-check: $(BUILD)/.tests
 	FBD_SDIST=build .ci/test $(BUILD) --no-rebuild sdist
 
