@@ -65,7 +65,7 @@ fuzz: $(BUILD)-fuzz/build.ninja $(BUILD)-count/build.ninja
 endif
 
 # fbd-run for other machines, by cross compilers and qemu: TARGETS of i686 (32 bits), s390x (big endian), musl. Every model of
-# the gallery does there what it does here. Some minutes for each. s390x and musl have not been tried yet.
+# the gallery does there what it does here. Some minutes for each.
 TARGETS = i686
 portability: all
 	.ci/install-packages run portability
@@ -238,12 +238,20 @@ pages: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	FBD_ALL_PAGES=1 FBD_TEST_TIMEOUT=10 .ci/test $(BUILD) --no-rebuild page
 
-# The language server in Debian's neovim: diagnostics arrive, and fixes are applied.
 # The same for other systems: one file with GSL and libyaml in it, build-wheel/fbd_mechanics-VERSION-....whl.
 wheel: all
 	.ci/install-packages run python
 	packaging/wheel $(BUILD) $(BUILD)-wheel
 
+# The Python module as source, with the library that it needs: build-sdist/fbd_mechanics-VERSION.tar.gz, of what is committed.
+sdist:
+	packaging/sdist $(BUILD)-sdist
+
+# That pip builds it elsewhere, and that it runs a model; some minutes.
+sdist-check: $(BUILD)/.tests
+	FBD_SDIST=build .ci/test $(BUILD) --no-rebuild sdist
+
+# The language server in Debian's neovim: diagnostics arrive, and fixes are applied.
 lsp-check: python
 	.ci/install-packages editor
 	tests/editor/lsp_check $(BUILD)-python/bin
@@ -336,5 +344,5 @@ $(BUILD)-count/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run reference engines portability satellites mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects instructions error-bars event-bars events late-times implicit tighter methods impacts failures gallery python wheel live live-check lsp-check site check-format format lint install uninstall dist dist-check recipes recipes-check pages deb deb-check clean
+.PHONY: all run reference engines portability satellites mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects instructions error-bars event-bars events late-times implicit tighter methods impacts failures gallery python wheel sdist sdist-check live live-check lsp-check site check-format format lint install uninstall dist dist-check recipes recipes-check pages deb deb-check clean
 .SECONDARY:

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Public interface: models whose inputs are computed by callbacks of the program.
+ * Public interface: models whose inputs are computed by callbacks of the program, or set between steps.
  *
- * The file is read again with the values of the model. There an input with a callback is a quantity behind the extended
+ * The file is read again with the values of the model. There such an input is a quantity behind the extended
  * vector (dynamics/world_refs.h), as positions in the world are, and no constant.
  */
 #include <stdlib.h>
@@ -18,7 +18,7 @@ static bool are_callbacks(const fbd_callback *callbacks, size_t count)
 {
     if (count > 0 && !callbacks) return false;
     for (size_t i = 0; i < count; i++)
-        if (!callbacks[i].input || !callbacks[i].function) return false;
+        if (!callbacks[i].input) return false;
     return true;
 }
 
@@ -47,7 +47,8 @@ static bool place_callbacks(const struct scene *scene, const fbd_callback *callb
                      "the file declares no input `%.40s`", callbacks[i].input);
             return false;
         }
-        parameters[k].call = (struct input_call){callbacks[i].function, callbacks[i].context};
+        parameters[k].call =
+            (struct input_call){callbacks[i].function, callbacks[i].context, !callbacks[i].function};
     }
     return true;
 }
@@ -104,7 +105,7 @@ fbd_model *fbd_model_with_callbacks(const fbd_model *model, const fbd_callback *
     fbd_errors *errors = diag_begin(&call, list);
     fbd_model *made = NULL;
     if (!model || !are_callbacks(callbacks, count))
-        api_refuse(errors, "there is no model, or a callback has no input or no function");
+        api_refuse(errors, "there is no model, or a callback has no input");
     else
         made = with_callbacks(model, callbacks, count, errors);
     diag_end(&call);

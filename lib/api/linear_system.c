@@ -149,10 +149,11 @@ static bool refuse_input(const struct building *building, const char *name)
     return false;
 }
 
-static bool refuse_called(const struct building *building, const char *name)
+static bool refuse_varying(const struct building *building, const char *name, bool held)
 {
     diag_add(building->errors, FBD_ERROR, "no-derivatives", (struct pos){0, 0},
-             "linearize the model without the callback", "the input `%s` is computed by a callback", name);
+             "linearize the model in which it is a constant", "the input `%s` is %s", name,
+             held ? "set between steps" : "computed by a callback");
     return false;
 }
 
@@ -170,8 +171,9 @@ static bool make_column(const struct building *building, size_t column, double *
 {
     const struct fbd_linearization *linear = building->system->linear;
     const size_t wide = plan_size(&building->model->plan), input = building->inputs[column];
-    if (linear->model->scene->parameters[input].call.function)
-        return refuse_called(building, building->system->inputs[column].name);
+    const struct input_call *call = &linear->model->scene->parameters[input].call;
+    if (input_varies(call))
+        return refuse_varying(building, building->system->inputs[column].name, call->held);
     struct fbd_model *by = model_by_input(linear->state, input);
     if (!by) return false;
     bool meant = !equilibrium_refuse_reels(by, NULL);

@@ -281,7 +281,8 @@ fbd_result *fbd_simulation_run(fbd_simulation *simulation, const fbd_recording *
     fbd_recording own = {0};
     if (!simulation || !api_take_options(&own, sizeof own, recording, NULL)) return NULL;
     if (recording) recording = &own;
-    if (simulation->ensemble->started) return NULL; /* the ledger needs every step */
+    if (simulation->ensemble->started || simulation->past.parts > 0)
+        return NULL; /* the ledger needs every step */
     return simulation->accuracy > 0 ? record_accurately(simulation, recording)
                                     : record(simulation, recording);
 }

@@ -16,6 +16,12 @@ bool simulation_begin(fbd_simulation *simulation, const struct fbd_model *model,
 /* Free the run with all its data. */
 void simulation_end(fbd_simulation *simulation);
 
+/* Note why an ensemble is refused at its start. */
+void simulation_blame(const struct ensemble *ensemble, fbd_errors *errors);
+
+/* Of the parts between changes of inputs the balance with the largest ratio of residual to its bound. */
+struct energy_balance simulation_energy_balance(fbd_simulation *simulation);
+
 /* Carry a run from its start to its end; outputs that are NULL in `recording` are not written, and none if it
  * is NULL. NULL when memory is out or the writer returned nonzero. */
 fbd_result *record(fbd_simulation *simulation, const fbd_recording *recording);

@@ -104,7 +104,9 @@ fbd_simulation *fbd_simulation_again(const fbd_simulation *simulation, bool erro
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
     fbd_simulation *again = NULL;
-    if (simulation) {
+    if (simulation && simulation->past.parts > 0) {
+        api_refuse(errors, "inputs have been set since the start: they are not set again");
+    } else if (simulation) {
         const struct ensemble *ensemble = simulation->ensemble;
         if (!error_bars || !ensemble->options.start || no_bars(errors))
             again = begin(calloc(1, sizeof *again), ensemble->model, &ensemble->options, error_bars, errors);
@@ -242,16 +244,18 @@ fbd_event fbd_simulation_event(fbd_simulation *simulation, size_t index)
                        .t_error = simulation_event_error(simulation, index)};
 }
 
+void simulation_blame(const struct ensemble *ensemble, fbd_errors *errors)
+{
+    const struct ending *end = &ensemble->refused->end;
+    diag_in_file(errors, ensemble->model->scene->file);
+    diag_add(errors, FBD_ERROR, end->refusal, end->refusal_at, NULL, "%s", end->reason);
+}
+
 bool fbd_simulation_blame(const fbd_simulation *simulation, fbd_errors *list)
 {
-    const struct ensemble *ensemble = simulation ? simulation->ensemble : NULL;
-    const struct run *refused = ensemble ? ensemble->refused : NULL;
     struct diag_call call;
-    if (!refused) return false;
-    fbd_errors *errors = diag_begin(&call, list);
-    diag_in_file(errors, ensemble->model->scene->file);
-    diag_add(errors, FBD_ERROR, refused->end.refusal, refused->end.refusal_at, NULL, "%s",
-             refused->end.reason);
+    if (!simulation || !simulation->ensemble->refused) return false;
+    simulation_blame(simulation->ensemble, diag_begin(&call, list));
     diag_end(&call);
     return true;
 }
@@ -259,7 +263,7 @@ bool fbd_simulation_blame(const fbd_simulation *simulation, fbd_errors *list)
 bool fbd_simulation_balanced(fbd_simulation *simulation, double *residual, double *explained)
 {
     struct energy_balance balance = {NAN, NAN};
-    if (simulation) balance = ensemble_energy_balance(simulation->ensemble);
+    if (simulation) balance = simulation_energy_balance(simulation);
     if (residual) *residual = balance.residual;
     if (explained) *explained = balance.explained;
     return simulation && !(fabs(balance.residual) > balance.explained);

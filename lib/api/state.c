@@ -45,8 +45,13 @@ const fbd_model *fbd_state_model(const fbd_state *state)
 /* The address of a named quantity, or NULL. */
 static double *find(const fbd_state *state, const char *name)
 {
+    const struct scene *scene = state->model->scene;
     int index = model_find_component(state->model, name, false);
-    return index >= 0 ? &state->y[index] : NULL;
+    if (index >= 0) return &state->y[index];
+    for (size_t i = 0; i < scene->parameter_count; i++)
+        if (scene->parameters[i].call.held && strcmp(scene->parameters[i].name, name) == 0)
+            return &state->held[i];
+    return NULL;
 }
 
 bool fbd_state_set(fbd_state *state, const char *name, double value)

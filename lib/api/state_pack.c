@@ -35,10 +35,18 @@ static size_t memory_count(const struct plan *plan)
     return count;
 }
 
+static size_t held_count(const struct scene *scene)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < scene->parameter_count; i++) count += scene->parameters[i].call.held;
+    return count;
+}
+
 static size_t size_of(const struct fbd_model *model)
 {
     return 1 + plan_size(&model->plan) + memory_count(&model->plan) +
-           numbers_of_a_coupling * coupling_count(model) + (size_t)model->scene->lifetime_count;
+           numbers_of_a_coupling * coupling_count(model) + (size_t)model->scene->lifetime_count +
+           held_count(model->scene);
 }
 
 struct packing {
@@ -76,6 +84,8 @@ size_t fbd_state_pack(const fbd_state *state, double *numbers, size_t room)
     for (size_t i = 0; i < coupling_count(state->model); i++)
         put_coupling(&packing, &state->tree->couplings[i]);
     for (int i = 0; i < state->model->scene->lifetime_count; i++) put(&packing, state->tree->life[i]);
+    for (size_t i = 0; i < state->model->scene->parameter_count; i++)
+        if (state->model->scene->parameters[i].call.held) put(&packing, state->held[i]);
     return packing.count;
 }
 
@@ -127,6 +137,9 @@ bool fbd_state_unpack(fbd_state *state, const double *numbers, size_t count)
         take_coupling(couplings + numbers_of_a_coupling * i, &state->tree->couplings[i]);
     const double *lives = couplings + numbers_of_a_coupling * coupling_count(state->model);
     for (int i = 0; i < state->model->scene->lifetime_count; i++) state->tree->life[i] = (int)lives[i];
+    const double *held = numbers + count - held_count(state->model->scene);
+    for (size_t i = 0; i < state->model->scene->parameter_count; i++)
+        if (state->model->scene->parameters[i].call.held) state->held[i] = *held++;
     state->settled = false;
     return true;
 }

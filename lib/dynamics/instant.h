@@ -34,6 +34,7 @@ struct instant {
     double *extended; /* scratch of world_refs.h; NULL when no expression refers to positions in the world */
     struct sliding *sliding; /* switches in a sliding mode; NULL when there are none */
     bool moved;              /* the links have just been moved to it (world_refs.h) */
+    const double *held;      /* values of inputs, by parameter; NULL when states have none */
 };
 
 /* A direction of variation: (dt, dy). */

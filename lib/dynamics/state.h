@@ -32,6 +32,7 @@ struct fbd_state {
     double *y;     /* plan_size: coordinates, rates, user states; then world_refs.h, by state_evaluate */
     double *a;     /* plan_rates: accelerations, then the rates of user states, by state_evaluate */
     double *slots; /* plan.slots: generalized forces, by state_evaluate */
+    double *held;  /* values of inputs, by parameter, see instant.h; copied with y, a and slots */
     int *branch, *slip, *pull;                    /* modes, see instant.h */
     int *branch_before;                           /* scratch for settling: plan.branches */
     int *slip_before, *slip_forced, *slip_barely; /* and plan.mode_count each */
@@ -90,7 +91,7 @@ struct state_start {
     const double *y;
     const int *branch;
     const struct fbd_state
-        *couplings; /* a state of this scene, or of one whose couplings include those of it */
+        *couplings; /* a state of this scene, or of one whose couplings and inputs include those of it */
 };
 
 /* A state with these initial values, whose sticking, taut and closed modes follow from it as at the start; NULL: at those
@@ -131,7 +132,7 @@ static inline struct instant state_instant_at(const struct fbd_state *state, dou
 {
     return (struct instant){t,           y,           state->branch,   state->slip,
                             state->pull, state->tree, state->extended, state_sliding(state),
-                            false};
+                            false,       state->held};
 }
 
 static inline struct time_dd state_moment(const struct fbd_state *state)

@@ -27,7 +27,8 @@ struct fbd_state *state_allocate(const struct fbd_model *model, struct arena *me
     const struct plan *plan = &model->plan;
     size_t rates = plan_rates(plan), extended = extended_size(model);
     size_t extra = model->absolute_count > 0 ? 2 * extended : 0;
-    size_t doubles = extended + rates + (size_t)plan->slots + scratch_size(plan) + extra;
+    size_t held = scene_holds_inputs(model->scene) ? model->scene->parameter_count : 0;
+    size_t doubles = extended + rates + (size_t)plan->slots + held + scratch_size(plan) + extra;
     size_t ints = 2 * (size_t)plan->branches + 8 * plan->mode_count;
     size_t tree = sizeof(struct tree_work) + tree_work_size(model);
     size_t sliding = plan->slide_count > 0 ? sizeof(struct sliding) + sliding_size(model) : 0;
@@ -49,7 +50,9 @@ struct fbd_state *state_allocate(const struct fbd_model *model, struct arena *me
     state->y = (void *)(behind + tree + sliding + arrows);
     state->a = state->y + extended;
     state->slots = state->a + rates;
-    state->scratch = state->slots + plan->slots;
+    state->held = held > 0 ? state->slots + plan->slots : NULL;
+    for (size_t i = 0; i < held; i++) state->held[i] = model->scene->parameters[i].value;
+    state->scratch = state->slots + plan->slots + held;
     state->extended = extra > 0 ? state->scratch + scratch_size(plan) : NULL;
     void *behind_doubles = state->scratch + scratch_size(plan) + extra; /* aligned for an int as well */
     state->branch = behind_doubles;
@@ -102,7 +105,7 @@ void state_copy(struct fbd_state *to, const struct fbd_state *from)
     state_set_moment(to, state_moment(from));
     to->settled = from->settled;
     to->degrees = from->degrees;
-    memcpy(to->y, from->y, (size_t)(from->scratch - from->y) * sizeof *to->y); /* with a and slots */
+    memcpy(to->y, from->y, (size_t)(from->scratch - from->y) * sizeof *to->y); /* with a, slots, held */
     if (modes > 0) memcpy(to->branch, from->branch, modes * sizeof *to->branch);
     if (to->sliding) sliding_copy(from->model, to->sliding, from->sliding);
     if (from->model->scene->lifetime_count > 0) state_copy_lives(to, from);

@@ -35,6 +35,9 @@ static void set_start(struct fbd_state *state, const struct state_start *start)
     const struct plan *plan = &state->model->plan;
     state->t = start->t;
     memcpy(state->y, start->y, plan_size(plan) * sizeof *state->y);
+    if (state->held)
+        memcpy(state->held, start->couplings->held,
+               state->model->scene->parameter_count * sizeof *state->held);
     if (start->branch) memcpy(state->branch, start->branch, (size_t)plan->branches * sizeof *state->branch);
 }
 

@@ -68,9 +68,10 @@ static double slip_along(const struct fbd_model *model, const struct model_absol
     return sign * (dv - d_speed);
 }
 
-/* ---- inputs that callbacks compute
+/* ---- inputs that are no constants
  *
- * u(t, y) has no exact derivatives. Its variation is the central difference
+ * A value that a state holds has no variation. A callback u(t, y) has no exact derivatives; its variation is the central
+ * difference
  *
  *   u' = (u(t + h dt, y + h dy) - u(t - h dt, y - h dy)) / (2 h),
  *
@@ -82,6 +83,11 @@ static double called(const struct fbd_model *model, int input, double t, const d
     const struct input_call *call = &model->scene->parameters[input].call;
     double value = NAN;
     return call->function(call->context, t, y, &value) == 0 ? value : NAN;
+}
+
+static double input_at(const struct fbd_model *model, int input, const struct instant *at, const double *y)
+{
+    return model->scene->parameters[input].call.held ? at->held[input] : called(model, input, at->t, y);
 }
 
 static double called_step(const struct instant *at, const struct direction *along, size_t size)
@@ -97,7 +103,7 @@ static double called_along(const struct fbd_model *model, int input, const struc
 {
     double y[most_called_numbers], values[2];
     const size_t size = plan_size(&model->plan);
-    const double h = called_step(at, along, size);
+    const double h = model->scene->parameters[input].call.held ? 0 : called_step(at, along, size);
     if (h == 0) return 0;
     for (int k = 0; k < 2; k++) {
         const double step = k == 0 ? -h : h;
@@ -134,7 +140,7 @@ void world_refs_write(const struct fbd_model *model, const struct instant *at, d
             continue;
         }
         if (absolute->kind == absolute_input) {
-            places[k] = called(model, absolute->coordinate, at->t, y);
+            places[k] = input_at(model, absolute->coordinate, at, y);
             continue;
         }
         if (absolute->kind == absolute_mass) places[k] = body_mass(body, at);

@@ -203,8 +203,8 @@ static void check_events(const struct fbd_model *model, fbd_errors *errors)
 static void check_calls(const struct fbd_model *model, fbd_errors *errors)
 {
     for (size_t i = 0; i < model->scene->parameter_count; i++)
-        if (model->scene->parameters[i].call.function)
-            lacks(errors, model->scene->parameters[i].at, "an input by a callback",
+        if (input_varies(&model->scene->parameters[i].call))
+            lacks(errors, model->scene->parameters[i].at, "an input that is no constant",
                   model->scene->parameters[i].name);
 }
 

@@ -120,7 +120,8 @@ static void join_all(const struct fbd_model *model, int *parent, struct items *i
         for (size_t i = 0; scene->body_count > 1 && i < body->load_count; i++)
             join_load(scene, parent, &body->loads[i], (int)b);
     }
-    const bool whole = scene->own_count > 0 || scene_has_calls(scene); /* a callback may read every number */
+    /* a callback may read every number, and an input may act on every body */
+    const bool whole = scene->own_count > 0 || scene_has_calls(scene) || scene_holds_inputs(scene);
     for (size_t b = 1; whole && b < scene->body_count; b++) join(parent, (int)b, 0);
     for (size_t i = 0; i < scene->event_count; i++) {
         int read = join_read(scene, parent, scene->events[i].left, -1);

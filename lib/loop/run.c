@@ -176,7 +176,12 @@ static void start(struct run *run)
         return;
     }
     run_release_contacts(run);
-    log_lifts_at_start(run);
+    if (run->options.continues) {
+        state_copy(run->during, run->options.start);
+        log_mode_changes(run, run->log.count, NULL);
+    } else {
+        log_lifts_at_start(run);
+    }
     run_check_counts(run);
     run_apply_endings(run);
     /* Potentials are those of the forces that are there after it. */

@@ -44,6 +44,7 @@ struct run_options {
     bool delays;                   /* of events are asked for, see run_event */
     bool ends_only;                /* states between start and end are not asked for */
     const struct fbd_state *start; /* initial state of the whole model; NULL: that of the file */
+    bool continues; /* the start continues a run of the whole model: its changed modes are events */
 };
 
 struct run_event {

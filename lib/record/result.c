@@ -71,7 +71,7 @@ bool fbd_result_accurate(const fbd_result *result)
 
 /* ---- cost */
 
-static void add_stats(fbd_stats *stats, const struct ensemble *ensemble)
+void stats_add(fbd_stats *stats, const struct ensemble *ensemble)
 {
     for (size_t i = 0; i < ensemble->count; i++) {
         const struct run_totals totals = group_totals(&ensemble->groups[i]);
@@ -101,13 +101,19 @@ fbd_stats fbd_simulation_stats(const fbd_simulation *simulation)
                        .accuracy = simulation->accuracy,
                        .runs = simulation->runs,
                        .seconds_spent = simulation->seconds_spent};
-    add_stats(&stats, ensemble);
+    stats_add(&stats, ensemble);
+    stats.steps += simulation->past.cost.steps;
+    stats.stiff_steps += simulation->past.cost.stiff_steps;
+    stats.rhs += simulation->past.cost.rhs;
+    stats.jacobians += simulation->past.cost.jacobians;
+    stats.event_samples += simulation->past.cost.event_samples;
+    stats.rejected += simulation->past.cost.rejected;
     if (simulation->bars) {
         const struct companion *companion = simulation->bars->companion;
         if (ensemble->outcome != FBD_GOING) bars_catch_up(simulation->bars, ensemble);
         stats.error_estimate = companion_global(companion);
         fbd_stats other = {0};
-        add_stats(&other, companion->ensemble);
+        stats_add(&other, companion->ensemble);
         stats.companion_steps = other.steps;
         stats.companion_rhs = other.rhs;
     }

@@ -12,6 +12,13 @@
 #include "record/numbers.h"
 
 /* The simulation of the public interface: a run of all groups, its error bars, and its cost. */
+/* The parts of a simulation before its inputs were last set (fbd_simulation_set_input). */
+struct past_parts {
+    size_t parts;
+    fbd_stats cost;                /* the sums of the counters of the work */
+    struct energy_balance balance; /* the one with the largest ratio */
+};
+
 struct fbd_simulation {
     struct ensemble *ensemble;
     struct bars *bars; /* NULL without error bars */
@@ -25,6 +32,7 @@ struct fbd_simulation {
     struct fbd_state *start;          /* initial state; NULL for that of the file */
     char **details;                   /* texts of events, made on request */
     size_t detail_count;
+    struct past_parts past;
 };
 
 struct fbd_result {
@@ -37,6 +45,9 @@ struct fbd_result {
     struct numbers numbers; /* the rows as numbers; empty if not requested */
     bool degrees;           /* angles are shown in degrees */
 };
+
+/* Add the counters of work of an ensemble. */
+void stats_add(fbd_stats *stats, const struct ensemble *ensemble);
 
 /* Compute the errors of the times of the events, with error bars. False when memory is out. */
 bool simulation_match_events(fbd_simulation *simulation);

@@ -144,7 +144,7 @@ static struct symbol time_symbol(const struct names *names)
     return time;
 }
 
-/* An input that a callback computes; in derivations by hand it is a constant, as other inputs. */
+/* An input that is no constant of the model. */
 static struct symbol call_symbol(const struct names *names, size_t index, struct symbol value)
 {
     const struct absolute input = {.point = {.kind = point_fixed},
@@ -165,9 +165,9 @@ static struct symbol constant_symbol(struct names *names, size_t index, struct p
     if (input) reader->names_inputs = true;
     bool is_time = reader->time && strcmp(reader->time->name, reader->scene->parameters[index].name) == 0;
     bool varies = input && (names->place == place_constant || is_time);
-    bool called = reader->scene->parameters[index].call.function && names->place != place_hand &&
-                  names->place != place_exact && !varies;
-    if (called && symbol.kind == symbol_constant) return call_symbol(names, index, symbol);
+    bool outside =
+        input_varies(&reader->scene->parameters[index].call) && names->place != place_exact && !varies;
+    if (outside && symbol.kind == symbol_constant) return call_symbol(names, index, symbol);
     if (!varies || symbol.kind != symbol_constant) return symbol;
     symbol = slot_symbol(symbol.dim, 0);
     symbol.because = "is an input, which may change during a run";

@@ -154,7 +154,7 @@ struct absolute {
         absolute_work,     /* of a force during a run */
         absolute_impulse,  /* of a force during a run */
         absolute_reaction, /* in events: of a constraint, a spring or damper, or the joint of the body */
-        absolute_input,    /* an input that a callback computes */
+        absolute_input,    /* an input that is no constant of the model */
     } kind;
     int part;          /* of absolute_reaction: enum reaction_part; of absolute_input: the parameter */
     const char *force; /* of absolute_reaction: name of the spring or damper; or NULL */
@@ -193,10 +193,17 @@ struct coordinate {
 /* The callback that computes an input from t and y = [q, v, z]: fbd_force_callback. */
 typedef int input_function(void *context, double t, const double *y, double *value);
 
+/* Where an input that is no constant of the model gets its value. */
 struct input_call {
-    input_function *function; /* NULL: the input is a constant */
+    input_function *function; /* NULL: no callback computes it */
     void *context;
+    bool held; /* each state has a value of it (fbd_simulation_set_input), at first that of the file */
 };
+
+static inline bool input_varies(const struct input_call *call)
+{
+    return call->function || call->held;
+}
 
 struct parameter {
     const char *name, *description; /* description "" when not given */
@@ -208,7 +215,7 @@ struct parameter {
     bool used;
     bool derived;           /* defined by other parameters or gravity */
     bool input;             /* of `inputs`: constant between two changes from outside */
-    struct input_call call; /* of an input that a callback computes */
+    struct input_call call; /* of an input that is no constant */
 };
 
 struct user_event {
@@ -286,6 +293,14 @@ static inline bool scene_has_calls(const struct scene *scene)
     return false;
 }
 
+/* True if states have values of inputs. */
+static inline bool scene_holds_inputs(const struct scene *scene)
+{
+    for (size_t i = 0; i < scene->parameter_count; i++)
+        if (scene->parameters[i].call.held) return true;
+    return false;
+}
+
 /* A parameter set from outside, as text: `--set f1=50 N`; of a table the file: `--set road=b.csv`. */
 struct override {
     const char *name;
@@ -293,7 +308,7 @@ struct override {
     bool as_time;      /* the input replaces the time (also in derivatives), which is the constant `now` */
     double now;
     bool varies;            /* its value will change in the next reading (patch.h) */
-    struct input_call call; /* computes the input instead */
+    struct input_call call; /* where an input gets its value instead */
 };
 
 /* A model file as a tree of its YAML: constant once it is open, shareable by threads. Scenes with other

@@ -29,6 +29,7 @@ from ._simulation import Simulation
 from ._state import Equations, State, Statics
 from ._sweep import SweepTable
 from ._testing import assert_derivation
+from ._widget import Sliders
 
 __version__: str = _text_at(_lib.fbd_version())
 
@@ -36,7 +37,7 @@ __version__: str = _text_at(_lib.fbd_version())
 __all__ = [
     "AccuracyNotReached", "Arrow", "Coordinate", "Cost", "CostPoint", "Cut", "Drift", "Effect", "Effects", "Energy",
     "Equation", "Equations", "Error", "Event", "Finding", "Fit", "Fitted", "Fix", "Found", "Gap", "Grade", "HandCheck", "Inertia", "Key", "Limit", "Linearization", "Member", "Mode", "Model",
-    "Note", "Now", "Parameter", "Progress", "Run", "RunFailed", "Section", "Simulation", "Solution", "State", "Statics", "Stats", "SweepTable", "Transfer", "Unbalanced",
+    "Note", "Now", "Parameter", "Progress", "Run", "RunFailed", "Section", "Simulation", "Sliders", "Solution", "State", "Statics", "Stats", "SweepTable", "Transfer", "Unbalanced",
     "assert_derivation", "check", "schema",
 ]
 

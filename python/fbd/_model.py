@@ -21,6 +21,7 @@ from ._section import Section
 from ._simulation import Simulation
 from ._state import Equations, State, Statics, coordinates_of
 from ._sweep import SweepTable, Vary
+from ._widget import Sliders
 
 Values = Optional[Mapping[str, Any]]
 Hand = Mapping[str, Sequence[str]]
@@ -289,6 +290,14 @@ class Model:
         options: Dict[str, Any] = {"until": self._seconds(until, "until"), "tolerance": tolerance,
                                    "step": self._seconds(step, "step"), "method": method, "structure": structure}
         return Simulation(self, options)
+
+    def sliders(self, show: Optional[Callable[["Model"], Any]] = None) -> Sliders:
+        """Sliders for the parameters that have a ``range``, in a notebook, above the run with their values. It needs
+        ipywidgets. ``show`` maps the present model to what is shown instead: a run, a state, equations, any text.
+
+        >>> model.sliders(lambda now: now.state())
+        """
+        return Sliders(self, show)
 
     def note(self, path: Union[str, "os.PathLike[str]"], *, date: Optional[str] = None, **options: Any) -> Run:
         """Run the model with error bars, and write its calculation note (:meth:`Run.note`). Options of :meth:`run`.

@@ -2,11 +2,12 @@
 """A motion that is advanced step by step, with inputs that change on the way."""
 from __future__ import annotations
 
+import math
 import threading
 from typing import TYPE_CHECKING, Any, Dict, List, Tuple
 
 from ._binding import ffi, lib
-from ._library import made, number, quantity, run_options, settings_of, text_at
+from ._library import bytes_of, checked, made, number, run_options, text_at
 from ._notes import Error, RunFailed, complaint
 from ._records import Event, from_struct
 from ._state import State
@@ -19,48 +20,46 @@ if TYPE_CHECKING:
 class Simulation:
     """A motion that is advanced to one time after the other (:meth:`fbd.Model.simulate`).
 
-    An input keeps its value until it is set anew. A change restarts the integration from the state at that time, with
-    the model of the new value, as an FMU does; while no input changes the steps do not depend on the times that are
-    asked for. Threads may share one: they wait for each other.
+    An input keeps its value until it is set anew. A change restarts the integration from the state at that time; while no
+    input changes the steps do not depend on the times that are asked for. Threads may share one: they wait for each
+    other.
     """
 
     def __init__(self, model: "Model", options: Dict[str, Any]):
         self._file, self._options = model, options
-        self._inputs: Dict[str, Any] = {}
+        self._model, self._holds = model._model, False
         self._lock = threading.RLock()
-        self._events: List[Event] = []
+        self._events: List[Event] = []  # before the inputs were held
         self._t, self._outcome = 0.0, lib.FBD_GOING
-        self._begin(None)
+        plain, method = run_options(**options)
+        self._simulation = made(lib.fbd_simulation_new, lib.fbd_simulation_free, (self._model,), self._model, plain)
+        del method
         self._state = self._at(0.0)
 
-    # ---- models and restarts
+    # ---- models
 
-    def _begin(self, state: Any) -> None:
-        """A simulation with the present inputs, from a state of the model before, or from the start of the file."""
-        model = self._compiled()
-        options, name = run_options(**self._options)
-        if state is None:
-            simulation = made(lib.fbd_simulation_new, lib.fbd_simulation_free, (model,), model, options)
-        else:
-            start = State(model)
-            count = lib.fbd_state_pack(state._handle, ffi.NULL, 0)
-            numbers = ffi.new("double[]", max(1, count))
-            lib.fbd_state_pack(state._handle, numbers, count)
-            if not lib.fbd_state_unpack(start._handle, numbers, count):
-                raise Error((complaint("error", "not-here", "an input that switches `hysteresis`, or a coupling, on and off cannot be changed"),))
-            simulation = made(lib.fbd_simulation_from, lib.fbd_simulation_free, (model,), start._handle, options)
-        del name
-        self._model, self._simulation = model, simulation
-
-    def _compiled(self) -> Any:
-        file = self._file
-        if not self._inputs:
-            return file._model
-        source = file._read_again()
-        settings, count, kept = settings_of({**file._parameters, **self._inputs})
-        model = made(lib.fbd_model_parse, lib.fbd_model_free, (), source, len(source), file._name, settings, count)
-        del kept
-        return model
+    def _hold_inputs(self) -> None:
+        """Continue with the model in which all inputs that no function computes are set between steps. It is compiled at
+        the first change; until then the steps are those of a run."""
+        values = {name: each.value for name, each in self._file.parameters.items() if each.input and not math.isnan(each.value)}
+        names = [ffi.new("char[]", bytes_of(name, "an input")) for name in values]
+        callbacks = ffi.new("fbd_callback[]", len(names))
+        for callback, name in zip(callbacks, names):
+            callback.input = name
+        model = made(lib.fbd_model_with_callbacks, lib.fbd_model_free, (self._file._calls,), self._file._model, callbacks,
+                     len(names))
+        count = lib.fbd_state_pack(self._state._handle, ffi.NULL, 0)
+        numbers = ffi.new("double[]", count + len(values))
+        lib.fbd_state_pack(self._state._handle, numbers, count)
+        numbers[count:count + len(values)] = list(values.values())
+        start = State(model)
+        if not lib.fbd_state_unpack(start._handle, numbers, count + len(values)):
+            raise Error((complaint("error", "not-here", "an input that switches `hysteresis`, or a coupling, on and off cannot be changed"),))
+        options, method = run_options(**self._options)
+        simulation = made(lib.fbd_simulation_from, lib.fbd_simulation_free, (model,), start._handle, options)
+        del method
+        self._events = self._present_events()
+        self._model, self._simulation, self._holds = model, simulation, True
 
     def _at(self, t: float) -> State:
         state = State(self._model)
@@ -130,18 +129,24 @@ class Simulation:
                 inputs = ", ".join(f"`{each}`" for each, is_a in self._file.parameters.items() if is_a.input)
                 hint = f"its inputs: {inputs}" if inputs else "the file has no `inputs`"
                 raise Error((complaint("error", "unknown-input", f"the file declares no input `{name}`; {hint}"),))
-            text = quantity(value, f"input `{name}`")
-            if self._inputs.get(name) == text:
-                return
-            before = dict(self._inputs), self._present_events()
-            self._inputs[name] = text
-            try:
-                self._begin(self._state)
-            except BaseException:
-                self._inputs = before[0]
-                raise
-            self._events += before[1]
+            if math.isnan(known.value):
+                raise Error((complaint("error", "fixed-input", f"the input `{name}` is computed by a function"),))
+            plain = self._number(name, value, known.unit)
+            if not self._holds:
+                if plain == known.value:
+                    return
+                self._hold_inputs()
+            checked(lib.fbd_simulation_set_input, self._simulation, self._t, bytes_of(name, "an input"), plain)
             self._state = self._at(self._t)
+
+    def _number(self, name: str, value: Any, unit: str) -> float:
+        """A value of an input in its unit."""
+        if not isinstance(value, str):
+            return number(value, f"input `{name}`")
+        result = ffi.new("double *")
+        checked(lib.fbd_model_quantity, self._model, bytes_of(name, "an input"), bytes_of(value, f"input `{name}`"),
+                bytes_of(unit, "a unit"), result)
+        return float(result[0])
 
     def __repr__(self) -> str:
         return f"<fbd.Simulation at t = {self._t:.9g} s, {len(self.events)} events>"

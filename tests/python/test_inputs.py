@@ -169,3 +169,54 @@ def test_what_cannot_be_set_is_refused():
     assert simulation.advance(0.2)["block.x"] == fbd.Model.parse(OSCILLATOR).run().at(0.2)["block.x"]
     with pytest.raises(ValueError, match="before"):
         simulation.advance(0.1)
+
+
+def test_the_file_is_compiled_once():
+    simulation = fbd.Model.parse(OSCILLATOR).simulate()
+    simulation.set_input("push", 1)
+    model = simulation._model
+    for i in range(1, 4):
+        simulation.advance(0.1 * i)
+        simulation.set_input("push", f"{i + 1} N")
+        assert simulation._model is model and simulation.state["block.x"] == simulation.advance(0.1 * i)["block.x"]
+    x, v = 0.3, 0.0
+    for force in (1, 2, 3):
+        x, v = swing(x, v, force, 0.1)
+    assert simulation.state["block.x"] == pytest.approx(x, abs=1e-9)
+    with pytest.raises(ValueError):
+        simulation.set_input("push", math.inf)
+
+
+SLIDER = """
+fbd: 1
+inputs: {push: 5 N}
+bodies:
+  block:
+    mass: 2 kg
+    motion: slide
+    forces: [gravity, normal, friction: {static: 0.3, kinetic: 0.2}, applied: {value: push}]
+simulate: {until: 6 s}
+"""
+
+
+def test_a_block_breaks_away_at_the_instant_of_the_change():
+    simulation, a = fbd.Model.parse(SLIDER).simulate(), 5 - 0.2 * 9.81
+    assert simulation.advance(1)["block.v"] == 0 and not simulation.events
+    simulation.set_input("push", "10 N")
+    assert [(event.kind, event.t) for event in simulation.events] == [("breakaway", 1.0)]
+    assert simulation.advance(2)["block.v"] == pytest.approx(a, abs=1e-9)
+    simulation.set_input("push", 0)
+    assert simulation.advance(5)["block.v"] == 0
+    assert simulation.events[-1].t == pytest.approx(2 + a / (0.2 * 9.81), abs=1e-9)
+
+
+def test_one_input_by_a_function_and_another_that_is_set():
+    two = OSCILLATOR.replace("{push: 5 N}", "{push: 5 N, drag: 0 N}").replace("{value: push}", "{value: push + drag}")
+    model = fbd.Model.parse(two).with_inputs({"drag": lambda t, now: -20 * now["v"]})
+    simulation = model.simulate()
+    simulation.advance(1)
+    simulation.set_input("push", 20)
+    assert simulation.advance(4)["block.x"] == pytest.approx(0.4, abs=1e-5)  # critically damped: by 16 e^-15
+    with pytest.raises(fbd.Error) as raised:
+        simulation.set_input("drag", 1)
+    assert raised.value.id == "fixed-input"

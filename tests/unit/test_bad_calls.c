@@ -214,6 +214,9 @@ static void simulations(void **context)
     ENDURES(fbd_simulation_interval, fbd_simulation_interval(NULL, &from, &to));
     assert_true(is_nan(from) && is_nan(to));
     ENDURES(fbd_simulation_interval, fbd_simulation_interval(simulation, NULL, NULL));
+    REFUSES(fbd_simulation_set_input, !fbd_simulation_set_input(NULL, 0, "F", 1, errors));
+    REFUSES(fbd_simulation_set_input, !fbd_simulation_set_input(simulation, 0, NULL, 1, errors));
+    REFUSES(fbd_simulation_set_input, !fbd_simulation_set_input(simulation, 0, "F", NAN, errors));
     ANSWERS(fbd_simulation_state, !fbd_simulation_state(NULL, 0, state));
     ANSWERS(fbd_simulation_state, !fbd_simulation_state(simulation, 0, NULL));
     ANSWERS(fbd_simulation_state, !fbd_simulation_state(simulation, 0, foreign));

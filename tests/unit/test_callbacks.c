@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "fbd_export.h"
+#include "fbd_grade.h"
 #include "fbd_linear.h"
 #include "fbd_study.h"
 #include "fbd_view.h"
@@ -259,6 +260,41 @@ static void it_is_linearized_by_differences(void **unused)
     fbd_errors_free(errors);
 }
 
+#define DERIVED(LINE)                                                                                        \
+    "fbd: 1\nparameters: {m: 2 kg, k: 50 N/m}\ninputs: {F: 5 N}\nbodies:\n  block:\n    mass: m\n    "       \
+    "motion: slide\n"                                                                                        \
+    "    forces: [spring: {stiffness: k}, applied: {value: 'LAW'}]\n"                                        \
+    "    hand: '" LINE "'\nsimulate: {until: 1 s}\n"
+
+static int rising_with_x(void *context, double t, const double *y, double *value)
+{
+    (void)context;
+    *value = 5 + 20 * y[0] * y[0] + t;
+    return 0;
+}
+
+static size_t differing(const fbd_model *model)
+{
+    size_t count = 99;
+    fbd_free(fbd_check_hand(model, 1, &count));
+    return count;
+}
+
+/* A derivation that names the input is compared with the value of the callback; one with the number of the file differs. */
+static void a_derivation_has_its_value(void **unused)
+{
+    (void)unused;
+    const char *scenes[] = {DERIVED("m*v_dot = F - k*x"), DERIVED("m*v_dot = 5[N] - k*x")};
+    for (size_t wrong = 0; wrong < 2; wrong++) {
+        fbd_model *model = called(scenes[wrong], "F", rising_with_x, NULL),
+                  *held = called(scenes[wrong], "F", NULL, NULL);
+        assert_int_equal(differing(model), wrong);
+        assert_int_equal(differing(held), wrong);
+        fbd_model_free(model);
+        fbd_model_free(held);
+    }
+}
+
 /* A closed form of the file holds for its constants. */
 static void a_closed_form_is_that_of_constants(void **unused)
 {
@@ -294,7 +330,7 @@ static void wrong_names_are_refused(void **unused)
     (void)unused;
     fbd_errors *errors = fbd_errors_new();
     fbd_model *model = model_of(POLE, "M");
-    const fbd_callback unknown = {"N", pd_of_pole, NULL}, none = {"M", NULL, NULL};
+    const fbd_callback unknown = {"N", pd_of_pole, NULL}, none = {NULL, pd_of_pole, NULL};
     assert_null(fbd_model_with_callbacks(model, &unknown, 1, errors));
     assert_string_equal(fbd_errors_get(errors, 0).id, "unknown-input");
     assert_null(fbd_model_with_callbacks(model, &none, 1, errors));
@@ -311,6 +347,7 @@ int main(void)
         cmocka_unit_test(error_bars_call_it_again),
         cmocka_unit_test(its_value_is_that_at_the_state),
         cmocka_unit_test(it_is_linearized_by_differences),
+        cmocka_unit_test(a_derivation_has_its_value),
         cmocka_unit_test(a_closed_form_is_that_of_constants),
         cmocka_unit_test(a_callback_that_fails_ends_the_run),
         cmocka_unit_test(wrong_names_are_refused),
