@@ -40,7 +40,7 @@ static void take_reason(struct extras *extras, fbd_errors *errors)
 {
     const fbd_error *first = diag_get(errors, 0);
     for (size_t i = 0; first && first->severity == FBD_WARNING; i++) first = diag_get(errors, i);
-    format_into(extras->why, sizeof extras->why, "%s", first ? first->message : "out of memory");
+    format_into(extras->why, sizeof extras->why, "%s", first ? first->message : "");
 }
 
 /* Count the indicators by a start, in a model as instances use it. */
@@ -68,9 +68,10 @@ static bool try_exchange(struct extras *extras, const fbd_model *model)
     const bool memory = values && errors;
     for (size_t i = 0; memory && i < count; i++) values[i] = fbd_model_parameter(model, i).value;
     extras->exchanges = memory && count_indicators(extras, model, values, errors);
-    if (memory && !extras->exchanges) take_reason(extras, errors);
+    const bool whole = memory && !errors->out_of_memory;
+    if (whole && !extras->exchanges) take_reason(extras, errors);
     fbd_errors_free(errors);
-    return memory;
+    return whole;
 }
 
 static void add(struct extras *extras, struct extra extra)

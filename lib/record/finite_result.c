@@ -10,7 +10,7 @@ static bool note_work(struct ledger *ledger, const struct fbd_state *state, cons
     const struct fbd_model *model = ledger->model;
     for (size_t i = 0; i < model->load_count; i++) {
         const struct model_load *load = &model->loads[i];
-        if (ledger->counted[i] && !ledger->any) continue;
+        if (ledger_has_works(ledger, i) && !ledger->any) continue;
         if (nonfinite_note(found, ledger_work(ledger, state, i, work), load->source->at,
                            "the work of `%s` on `%s`", load->source->name, model->bodies[load->body].name))
             return true;

@@ -30,8 +30,7 @@ static void count_works(struct ledger *ledger)
     }
 }
 
-/* Are there works of a load that do not follow from its potential? As a spring breaks, its energy is lost. */
-static bool has_works(const struct ledger *ledger, size_t load)
+bool ledger_has_works(const struct ledger *ledger, size_t load)
 {
     return ledger->counted[load] || ledger->model->loads[load].source->lifetime.number > 0;
 }
@@ -60,8 +59,8 @@ bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fb
     count_works(ledger);
     for (size_t i = 0; i < loads; i++) {
         const struct model_load *load = &model->loads[i];
-        ledger->any |= works && has_works(ledger, i);
-        if (!works && has_works(ledger, i)) ledger->work[i] = NAN;
+        ledger->any |= works && ledger_has_works(ledger, i);
+        if (!works && ledger_has_works(ledger, i)) ledger->work[i] = NAN;
         ledger->initial_potential[i] = potential_energy(model, load, &at, ledger->scratch);
         ledger->initial_sum += ledger->initial_potential[i];
     }
@@ -84,7 +83,7 @@ bool ledger_integrates(const struct ledger *ledger, const struct group *group)
 bool ledger_counts(const struct ledger *ledger, const struct group *group)
 {
     for (size_t i = 0; i < group->model->load_count; i++)
-        if (has_works(ledger, (size_t)group_load(group, (int)i))) return true;
+        if (ledger_has_works(ledger, (size_t)group_load(group, (int)i))) return true;
     return false;
 }
 
@@ -111,7 +110,7 @@ bool ledger_step(struct ledger *ledger, struct ensemble *ensemble, size_t index)
     ledger->through[first] = sums.turnover;
     for (size_t i = 0; i < model->load_count; i++) {
         int load = group_load(group, (int)i);
-        if (!has_works(ledger, (size_t)load)) continue;
+        if (!ledger_has_works(ledger, (size_t)load)) continue;
         ledger->end[load] += run->impact_work[i] - ledger->struck[load];
         ledger->struck[load] = run->impact_work[i];
     }
@@ -184,7 +183,7 @@ double ledger_work(struct ledger *ledger, const struct fbd_state *state, size_t 
     if (ledger->counted[index]) return work[index];
     struct instant at = state_instant(state);
     const double V = potential_energy(ledger->model, load, &at, ledger->scratch);
-    return ledger->initial_potential[index] - V + (has_works(ledger, index) ? work[index] : 0);
+    return ledger->initial_potential[index] - V + (ledger_has_works(ledger, index) ? work[index] : 0);
 }
 
 fbd_energy ledger_energy(struct ledger *ledger, const struct fbd_state *state, const double *work)
@@ -197,7 +196,7 @@ fbd_energy ledger_energy(struct ledger *ledger, const struct fbd_state *state, c
     /* Differences load by load: a distant datum does not lose the change in rounding. */
     double change = 0;
     for (size_t i = 0; i < model->load_count; i++) {
-        if (has_works(ledger, i)) energy.work += work[i];
+        if (ledger_has_works(ledger, i)) energy.work += work[i];
         if (ledger->counted[i]) continue;
         double potential = potential_energy(model, &model->loads[i], &at, ledger->scratch);
         energy.potential += potential;

@@ -21,7 +21,7 @@ struct ledger {
     const struct fbd_model *model;
     bool *integrated; /* per load: its work is integrated */
     bool *counted;    /* per load: ... or its work in impacts alone (a force perpendicular to the motion) */
-    bool any;         /* works were requested, and a load with `counted` exists */
+    bool any;         /* works were requested, and a load has some (ledger_has_works) */
     bool works;       /* works were requested */
     double *begin, *end; /* per load, integrated, up to the begin and end of its group's last step */
     double *work;        /* per load, integrated, up to the end of the run */
@@ -43,6 +43,9 @@ struct ledger {
  * when memory is out. */
 bool ledger_init(struct ledger *ledger, const struct fbd_model *model, struct fbd_state *start, bool works);
 void ledger_free(struct ledger *ledger);
+
+/* Does a load have works that do not follow from its potential? As a spring breaks, its energy is lost. */
+bool ledger_has_works(const struct ledger *ledger, size_t load);
 
 /* Is any work in this group integrated? Sampling inside a step costs as much as dense output. */
 bool ledger_integrates(const struct ledger *ledger, const struct group *group);
