@@ -50,6 +50,7 @@ static bool count_indicators(struct extras *extras, const fbd_model *model, doub
     const fbd_options options = {.size = sizeof options, .until = 1};
     fbd_model *with = extra_model(model, values, errors);
     fbd_state *state = with ? fbd_state_new(with) : NULL;
+    if (with && !state) diag_out_of_memory(errors);
     fbd_exchange *exchange = state ? fbd_exchange_new(state, &options, errors) : NULL;
     if (exchange) extras->indicators = fbd_exchange_indicator_count(exchange);
     const bool made = exchange != NULL;
