@@ -319,7 +319,8 @@ static void apply_all(struct exchange *exchange)
     exchange->moved = false;
     impose(run);
     project(run);
-    if (run->end.outcome == FBD_GOING) apply_timed(exchange);
+    if (run->end.outcome != FBD_GOING) return;
+    apply_timed(exchange);
     if (run->end.outcome == FBD_GOING) apply_moving(exchange);
 }
 

@@ -45,7 +45,7 @@ static void change_force(struct run *run, int watch, enum life life)
         run->impact_work[i] += life == life_there ? V : -V;
         energy += V;
     }
-    state->tree->life[of->source->lifetime - 1] = life;
+    state->tree->life[of->source->lifetime - 1] = (int)life;
     run->energy.lowered += life == life_there ? energy : -energy;
     struct run_event *event =
         log_event(run, life == life_there ? FBD_EVENT_FORCE_BEGINS : FBD_EVENT_FORCE_ENDS,

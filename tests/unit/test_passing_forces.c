@@ -81,8 +81,7 @@ static void a_brake_begins_and_ends(void **unused)
     static const char *const brakes[] = {
         "applied: {name: brake, value: -3, from: x > 1 m, until: v < 0.5 m/s}",
         "applied: {name: brake, fx: -3, fy: 0, from: x > 1, until: v < 0.5}",
-        "applied: {name: brake, value: 3, angle: 180 deg, from: x > 1, until: 0.5 "
-        "> v}"};
+        "applied: {name: brake, value: 3, angle: 180 deg, from: x > 1, until: 0.5 > v}"};
     const double first = 0.5, last = first + 1.5 * 1.5 / 3;
     struct checks checks = {0};
     (void)unused;
