@@ -6,7 +6,7 @@
  * such a line is false is decided here by the numbers of the diagram, at other states and other parameters than those of
  * --check-hand. None that is false is accepted, none that is true refused.
  *
- * Every fourth model; with FBD_DRAWS all of them, so many times.
+ * Every fourth model, under a sanitizer every twelfth; with FBD_DRAWS all of them, so many times.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -23,6 +23,7 @@
 #include "output/hand.h"
 #include "output/hand_forces.h"
 #include "output/random_state.h"
+#include "thorough.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -420,7 +421,8 @@ static size_t draws(void)
 static void check_model(struct checks *checks, const char *path)
 {
     static struct written lines[most_lines];
-    if (models_seen++ % 4 != 2 && !getenv("FBD_DRAWS")) return;
+    const size_t every = thorough() ? 4 : 12;
+    if (models_seen++ % every != 2 && !getenv("FBD_DRAWS")) return;
     struct trial trial = trial_open(path, NULL);
     struct fbd_model *model = trial.model;
     struct page page = {.model = model, .lines = lines, .rng = gsl_rng_alloc(gsl_rng_mt19937)};
