@@ -112,14 +112,16 @@ void parameters_check_coordinates(struct reader *reader)
     for (size_t i = 0; i < scene->parameter_count; i++) {
         const struct parameter *parameter = &scene->parameters[i];
         const char *name = parameter->name, *noun = parameter->input ? "an input" : "a parameter";
-        const char *hint = diag_hint(reader->errors, "choose another name, such as `%s0`", name);
-        if (strcmp(name, "t") == 0 || strcmp(name, "pi") == 0) continue;
         /* Outside of its block, too, the coordinates of the only body need no prefix. */
-        if (scene->body_count == 1 && body_has_coordinate(reader, 0, name))
+        const bool of_only = scene->body_count == 1 && body_has_coordinate(reader, 0, name);
+        const bool noted = strcmp(name, "t") == 0 || strcmp(name, "pi") == 0;
+        if (noted || (!of_only && !name_is_reserved(name))) continue;
+        const char *hint = diag_hint(reader->errors, "choose another name, such as `%s0`", name);
+        if (of_only)
             diag_add(reader->errors, FBD_ERROR, "reserved-name", parameter->at, hint,
                      "`%s` cannot be %s: it is a coordinate or rate of `%s`", name, noun,
                      scene->bodies[0].name);
-        else if (name_is_reserved(name))
+        else
             diag_add(reader->errors, FBD_WARNING, "coordinate-name", parameter->at, hint,
                      "`%s` is %s here, and in other files a coordinate or rate", name, noun);
     }
