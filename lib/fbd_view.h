@@ -22,7 +22,7 @@ typedef enum fbd_variable_kind {
     FBD_VARIABLE_RATE,
     FBD_VARIABLE_ACCELERATION, /* second derivative of a coordinate */
     FBD_VARIABLE_STATE,        /* of `states` */
-    FBD_VARIABLE_POINT, /* position, velocity or acceleration of `output: {points: ...}`, in the world */
+    FBD_VARIABLE_POINT, /* of `output: {points: ...}`: position, velocity, acceleration in the world; proper acceleration */
 } fbd_variable_kind;
 
 /* A variable of a scene. Texts live as long as the model. */

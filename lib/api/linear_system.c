@@ -89,7 +89,14 @@ static bool add_output(struct building *building, const char *name)
     fbd_variable variable;
     signal->name = arena_text(&system->arena, name, strlen(name));
     if (!signal->name) return false;
-    if (world_find(building->model, name, &output->place)) {
+    const bool point = world_find(building->model, name, &output->place);
+    if (point && output->place.part >= world_proper_ax) {
+        diag_add(building->errors, FBD_ERROR, "unknown-output", (struct pos){0, 0},
+                 "take the components in the world, `.ax` and `.ay`",
+                 "`%s` is measured in axes that turn with the body, and has no transfer function here", name);
+        return false;
+    }
+    if (point) {
         output->kind = FBD_VARIABLE_POINT;
         signal->unit = world_part_unit(building->model, output->place.part);
     } else if (find_variable(building, name, false, &variable)) {
@@ -226,7 +233,7 @@ static void point_weights(const struct fbd_linearization *linear, struct fbd_sta
         double values[world_parts];
         for (size_t i = 0; i < n; i++) probe->y[n + i] = share_of(linear, i, k);
         state_evaluate(probe);
-        world_values(probe, place->body, place->point, values);
+        world_values(probe, place->body, world_point(linear->model, place->body, place->point), values);
         weights[k] = values[place->part % 2 ? world_vy : world_vx];
     }
 }

@@ -7,7 +7,8 @@ static double value_of(const struct extreme *extreme, const struct fbd_state *st
 {
     double values[world_parts];
     if (extreme->index >= 0) return state->y[extreme->index];
-    world_values(state, extreme->point.body, extreme->point.point, values);
+    const struct vec point = world_point(state->model, extreme->point.body, extreme->point.point);
+    world_values(state, extreme->point.body, point, values);
     return values[extreme->point.part];
 }
 

@@ -215,8 +215,12 @@ void explain_name_after_number(struct parser *p, struct token number)
 /* Of the acceleration of a point: forces determine it, so none can depend on it. */
 static const char *acceleration_hint(struct parser *p, const char *name)
 {
+    static const char *const called[] = {".ax", ".ay", ".proper_ax", ".proper_ay"};
     const char *dot = strrchr(name, '.');
-    if (!dot || (strcmp(dot, ".ax") != 0 && strcmp(dot, ".ay") != 0)) return NULL;
+    bool acceleration = false;
+    for (size_t i = 0; dot && i < sizeof called / sizeof *called; i++)
+        acceleration |= strcmp(dot, called[i]) == 0;
+    if (!acceleration) return NULL;
     return diag_hint(
         p->errors,
         "an acceleration follows from the forces and is known behind them only: `output: {points: "

@@ -213,7 +213,7 @@ void xml_description(struct text *xml, const struct package *package, size_t ind
         add_name(&text, variable - 1);
         break;
     case FBD_VARIABLE_STATE: text_add(&text, "state of the model file"); break;
-    case FBD_VARIABLE_POINT: text_add(&text, "of a point, in the world"); break;
+    case FBD_VARIABLE_POINT: text_add(&text, "of a point"); break;
     }
     take_attribute(xml, "description", &text);
 }

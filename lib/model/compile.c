@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "model/builder.h"
+#include "model/outline.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -127,6 +128,15 @@ static void check_massless(const struct builder *builder)
     }
 }
 
+static void check_holes(const struct body *body, fbd_errors *errors)
+{
+    const struct part *hole = outline_hole_outside(body);
+    if (!hole) return;
+    diag_add(errors, FBD_ERROR, "bad-inertia", hole->at, "check its `center`, in the frame of the body",
+             "the hole `%s` of `%s` lies outside of the other parts: nothing can be cut out there",
+             hole->name, body->name);
+}
+
 static void check_inertia(const struct model_body *body, fbd_errors *errors)
 {
     const struct inertia *inertia = &body->inertia;
@@ -186,6 +196,7 @@ static void set_body(struct model_body *body, const struct body *source, const s
     body->arm = vec_sub(body->inertia.G, body->pin);
     body->L = vec_norm(body->arm);
     check_inertia(body, errors);
+    check_holes(source, errors);
 }
 
 /* ---- loads */

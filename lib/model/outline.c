@@ -70,3 +70,42 @@ struct outline_part outline_of_part(const struct part *part)
     }
     return outline;
 }
+
+static bool has_area(const struct outline_part *outline)
+{
+    return outline->kind == outline_circle || outline->kind == outline_polygon;
+}
+
+static bool contains(const struct outline_part *outline, struct vec p)
+{
+    if (outline->kind == outline_circle) {
+        double r = vec_norm(vec_sub(p, outline->center));
+        return r >= outline->inner && r <= outline->radius;
+    }
+    int left = 0, right = 0;
+    for (int i = 0; i < 4; i++) {
+        struct vec from = outline->corner[i], to = outline->corner[(i + 1) % 4];
+        double side = vec_cross(vec_sub(to, from), vec_sub(p, from));
+        left += side >= 0;
+        right += side <= 0;
+    }
+    return left == 4 || right == 4;
+}
+
+/* A hole is convex and symmetric, so its centre belongs to it and must lie in the material. A tube as a hole has no
+ * material to remove at its centre. */
+const struct part *outline_hole_outside(const struct body *body)
+{
+    const struct part *outside = NULL;
+    for (size_t i = 0; i < body->part_count; i++) {
+        const struct outline_part hole = outline_of_part(&body->parts[i]);
+        if (!has_area(&hole)) return NULL;
+        bool inside = !hole.hole || hole.inner > 0;
+        for (size_t k = 0; k < body->part_count && !inside; k++) {
+            const struct outline_part other = outline_of_part(&body->parts[k]);
+            inside = !other.hole && has_area(&other) && contains(&other, hole.center);
+        }
+        if (!inside && !outside) outside = &body->parts[i];
+    }
+    return outside;
+}

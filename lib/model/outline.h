@@ -26,4 +26,8 @@ struct outline_part {
 /* The shape of the part in the plane. */
 struct outline_part outline_of_part(const struct part *part);
 
+/* The first hole whose centre lies in no other part; NULL if there is none, or if this cannot be told, since the file
+ * gives the inertia of a part in place of its shape, or a part has no area. */
+const struct part *outline_hole_outside(const struct body *body);
+
 #endif

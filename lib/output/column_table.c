@@ -117,7 +117,6 @@ static bool define_point(struct run_columns *columns, struct run_column *c)
     const struct scene *scene = columns->model->scene;
     const enum world_part part = (enum world_part)c->part;
     c->body = scene->output_points[c->index].body;
-    c->point = columns->model->output_points[c->index];
     c->name =
         arena_printf(&columns->arena, "%s.%s", scene->output_points[c->index].name, world_part_name(part));
     c->unit = world_part_unit(columns->model, part);
@@ -279,7 +278,10 @@ static void velocity_values(const struct run_column *c, int count, struct column
 static void point_values(const struct run_column *c, int count, struct column_view *view, double *values)
 {
     double all[world_parts];
-    world_values(view->state, c->body, c->point, all);
+    const struct fbd_model *model = view->state->model;
+    const bool listed = c->index >= 0;
+    const struct vec point = listed ? model->output_points[c->index] : world_point(model, c->body, c->point);
+    world_values(view->state, c->body, point, all);
     for (int k = 0; k < count; k++) values[k] = all[c[k].part];
 }
 

@@ -69,14 +69,14 @@ enum column_use {
 struct run_column {
     const char *name, *unit;
     enum column_kind kind;
-    int body;         /* or -1 */
-    int index;        /* of the arrow in the diagram of the body, of the user state, of the output point */
-    int part;         /* of the kind, from 0 */
-    int entry;        /* of y or a; the load of a work */
-    int group;        /* of the first of columns that differ in `part` alone: their number */
-    bool extra;       /* a component of a force that the CSV has with `components` only */
-    double size;      /* of the displayed unit: the number in y is divided by it */
-    struct vec point; /* of a body, in its frame */
+    int body;    /* or -1 */
+    int index;   /* of the arrow in the diagram of the body, of the user state, of the output point */
+    int part;    /* of the kind, from 0 */
+    int entry;   /* of y or a; the load of a work */
+    int group;   /* of the first of columns that differ in `part` alone: their number */
+    bool extra;  /* a component of a force that the CSV has with `components` only */
+    double size; /* of the displayed unit: the number in y is divided by it */
+    int point;   /* of a body: world_point */
 };
 
 struct run_columns {

@@ -8,19 +8,15 @@
 
 const char *world_part_name(enum world_part part)
 {
-    static const char *const names[] = {"x", "y", "vx", "vy", "ax", "ay"};
+    static const char *const names[] = {"x", "y", "vx", "vy", "ax", "ay", "proper_ax", "proper_ay"};
     return names[part];
 }
 
 const char *world_part_unit(const struct fbd_model *model, enum world_part part)
 {
-    static const char *const si[] = {"m", "m", "m/s", "m/s", "m/s^2", "m/s^2"}, *const us[] = {"ft",
-                                                                                               "ft",
-                                                                                               "ft/s",
-                                                                                               "ft/s",
-                                                                                               "ft/s^2",
-                                                                                               "ft/s^2"};
-    return model->scene->units == unit_us ? us[part] : si[part];
+    static const char *const units[][2] = {{"m", "ft"}, {"m/s", "ft/s"}, {"m/s^2", "ft/s^2"}};
+    const int order = part < world_proper_ax ? (int)part / 2 : 2;
+    return units[order][model->scene->units == unit_us];
 }
 
 static bool is_called(const char *name, const char *text, size_t length)
@@ -29,23 +25,30 @@ static bool is_called(const char *name, const char *text, size_t length)
 }
 
 /* `right`, `G` or `O` of a body. */
-static bool find_point(const struct model_body *body, const char *name, size_t length, struct vec *point)
+static bool find_point(const struct model_body *body, const char *name, size_t length, int *point)
 {
     const struct body *source = body->source;
     if (is_called("G", name, length)) {
-        *point = body->inertia.G;
+        *point = world_G;
         return true;
     }
     if (is_called("O", name, length) && body->joint->has_axis) {
-        *point = source->motion.point;
+        *point = world_O;
         return true;
     }
     for (size_t i = 0; i < source->point_count; i++) {
         if (!is_called(source->points[i].name, name, length)) continue;
-        *point = source->points[i].where;
+        *point = (int)i;
         return true;
     }
     return false;
+}
+
+struct vec world_point(const struct fbd_model *model, int b, int point)
+{
+    const struct model_body *body = &model->bodies[b];
+    if (point == world_G) return body->inertia.G;
+    return point == world_O ? body->source->motion.point : body->source->points[point].where;
 }
 
 bool world_find(const struct fbd_model *model, const char *name, struct world_quantity *quantity)
@@ -75,6 +78,17 @@ static struct vec acceleration(const struct model_body *body, const struct insta
     return vec_add(a, vec_sub(vec_scale(alpha, vec_perp(r)), vec_scale(pose->omega * pose->omega, r)));
 }
 
+/* The gravity of the scene in its plane; zero if no body has weight, since then there is none. */
+static struct vec gravity_of(const struct fbd_model *model)
+{
+    for (size_t b = 0; b < model->body_count; b++) {
+        const struct body *source = model->bodies[b].source;
+        for (size_t i = 0; i < source->load_count; i++)
+            if (source->loads[i].kind == load_gravity) return model->scene->gravity;
+    }
+    return (struct vec){0, 0};
+}
+
 void world_values(const struct fbd_state *state, int b, struct vec point, double values[world_parts])
 {
     const struct model_body *body = &state->model->bodies[b];
@@ -82,6 +96,9 @@ void world_values(const struct fbd_state *state, int b, struct vec point, double
     struct pose pose = body_pose(body, &at);
     struct motion_of_point moves = point_motion(body, &pose, point);
     struct vec a = acceleration(body, &at, &pose, point);
-    const double all[world_parts] = {moves.p.x, moves.p.y, moves.v.x, moves.v.y, a.x, a.y};
+    struct vec back = {pose.rotation.x, -pose.rotation.y};
+    struct vec proper = vec_turn(back, vec_sub(a, gravity_of(state->model)));
+    const double all[world_parts] = {moves.p.x, moves.p.y, moves.v.x, moves.v.y,
+                                     a.x,       a.y,       proper.x,  proper.y};
     memcpy(values, all, sizeof all);
 }

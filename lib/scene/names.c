@@ -156,6 +156,26 @@ static struct symbol call_symbol(const struct names *names, size_t index, struct
     return symbol;
 }
 
+struct symbol two_meanings(struct reader *reader, const char *name, const char *other, struct pos at)
+{
+    diag_add(reader->errors, FBD_ERROR, "ambiguous-name", at,
+             diag_hint(reader->errors, "call the parameter otherwise, such as `%s0`", name),
+             "`%s` could mean the parameter or %s", name, other);
+    return failed_before;
+}
+
+/* A parameter in the block of a body that has a coordinate or rate of that name: neither may hide the other. */
+static bool means_coordinate(const struct names *names, const char *name, struct pos at)
+{
+    struct reader *reader = names->reader;
+    const int block = reader->open ? ground_body : reader->inside; /* definitions stand in no block */
+    const int body = names->body != ground_body ? names->body : block;
+    if (body == ground_body || !body_has_coordinate(reader, body, name)) return false;
+    two_meanings(reader, name, diag_hint(reader->errors, "`%s.%s`", reader->scene->bodies[body].name, name),
+                 at);
+    return true;
+}
+
 /* A parameter; or an input, which is not constant: it may change during a run. */
 static struct symbol constant_symbol(struct names *names, size_t index, struct pos at)
 {
@@ -174,19 +194,29 @@ static struct symbol constant_symbol(struct names *names, size_t index, struct p
     return symbol;
 }
 
+/* The position along a distributed load. */
+static struct symbol along_symbol(const struct names *names, struct pos at)
+{
+    size_t parameter;
+    const bool given = parameters_find(names->reader, "s", &parameter);
+    return given ? two_meanings(names->reader, "s", "the length along the load", at)
+                 : slot_symbol(DIM_LENGTH, 1);
+}
+
 static struct symbol name_now(struct names *names, const char *name, struct pos at)
 {
     struct reader *reader = names->reader;
     const char *dot = strchr(name, '.');
-    if (names->along && strcmp(name, "s") == 0) return slot_symbol(DIM_LENGTH, 1);
+    if (names->along && strcmp(name, "s") == 0) return along_symbol(names, at);
     if (own_states_name(reader, name))
         return reader->definition_readers->state(names, name + strlen("states."), at);
     if (dot) return or_force(names, name, dotted_symbol(names, name, dot, at), at);
     if (strcmp(name, "t") == 0) return time_symbol(names);
-    struct symbol own = own_symbol(names, name);
     size_t parameter;
+    if (parameters_find(reader, name, &parameter))
+        return means_coordinate(names, name, at) ? failed_before : constant_symbol(names, parameter, at);
+    struct symbol own = own_symbol(names, name);
     if (own.kind != symbol_unknown) return own;
-    if (parameters_find(reader, name, &parameter)) return constant_symbol(names, parameter, at);
     if (names->tried && strcmp(name, "s") == 0) return slot_symbol(DIM_NONE, 0);
     struct symbol state = reader->definition_readers->state(names, name, at);
     if (state.kind != symbol_unknown) return state;

@@ -2,9 +2,10 @@
  *
  * Names: the names that an expression of a model file may use, depending on its place.
  *
- * A name is looked up in this order: coordinates of the current body, parameters, then the names of the
- * place: g everywhere, m in loads, the whole equation of motion in a derivation. So parameters shadow all
- * names but those of coordinates, which are reserved. `body.x` is a coordinate of any body.
+ * A name is looked up in this order: parameters, coordinates of the current body, then the names of the
+ * place: g everywhere, m in loads, the whole equation of motion in a derivation. A parameter may have the name of
+ * a coordinate, but an expression in the block of a body that has such a coordinate cannot use it: there the name
+ * has two meanings and is refused. `body.x` is a coordinate of any body.
  */
 #ifndef FBD_SCENE_NAMES_H
 #define FBD_SCENE_NAMES_H
@@ -22,6 +23,9 @@ static inline struct symbol slot_symbol(struct dim dim, size_t slot)
 
 /* True for t, pi and the names of coordinates and rates, which are reserved. */
 bool name_is_reserved(const char *name);
+
+/* Note that `name` is a parameter and `other`, and refuse it. */
+struct symbol two_meanings(struct reader *reader, const char *name, const char *other, struct pos at);
 
 /* Note `bad-name` when `name` is no identifier. `what` is the named thing ("a body"), or NULL. */
 bool name_check(fbd_errors *errors, const char *name, struct pos at, const char *what);

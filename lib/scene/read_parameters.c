@@ -98,14 +98,33 @@ static bool check_parameter_name(struct reader *reader, const struct pair *pair,
                  "a parameter is called `%s`, too", pair->key);
         return false;
     }
-    if (!name_is_reserved(pair->key)) return true;
+    const bool time = strcmp(pair->key, "t") == 0;
+    if (!time && strcmp(pair->key, "pi") != 0) return true;
     diag_add(reader->errors, FBD_ERROR, "reserved-name", pair->at,
              diag_hint(reader->errors, "choose another name, such as `%s0`", pair->key),
-             "`%s` cannot be %s: it is %s", pair->key, what,
-             !strcmp(pair->key, "t")    ? "the time"
-             : !strcmp(pair->key, "pi") ? "the number 3.14..."
-                                        : "a coordinate");
+             "`%s` cannot be %s: it is %s", pair->key, what, time ? "the time" : "the number 3.14...");
     return false;
+}
+
+void parameters_check_coordinates(struct reader *reader)
+{
+    const struct scene *scene = reader->scene;
+    for (size_t i = 0; i < scene->parameter_count; i++) {
+        const struct parameter *parameter = &scene->parameters[i];
+        const char *name = parameter->name, *noun = parameter->input ? "an input" : "a parameter";
+        /* Outside of its block, too, the coordinates of the only body need no prefix. */
+        const bool of_only = scene->body_count == 1 && body_has_coordinate(reader, 0, name);
+        const bool noted = strcmp(name, "t") == 0 || strcmp(name, "pi") == 0;
+        if (noted || (!of_only && !name_is_reserved(name))) continue;
+        const char *hint = diag_hint(reader->errors, "choose another name, such as `%s0`", name);
+        if (of_only)
+            diag_add(reader->errors, FBD_ERROR, "reserved-name", parameter->at, hint,
+                     "`%s` cannot be %s: it is a coordinate or rate of `%s`", name, noun,
+                     scene->bodies[0].name);
+        else
+            diag_add(reader->errors, FBD_WARNING, "coordinate-name", parameter->at, hint,
+                     "`%s` is %s here, and in other files a coordinate or rate", name, noun);
+    }
 }
 
 /* Define one entry of `parameters` or `inputs`, without evaluating it. */

@@ -22,8 +22,12 @@ struct track_names {
 static struct symbol look_up(void *context, const char *name, struct pos at)
 {
     struct track_names *track = context;
-    if (strcmp(name, track->parameter) == 0)
+    if (strcmp(name, track->parameter) == 0) {
+        size_t parameter;
+        if (parameters_find(track->names.reader, name, &parameter))
+            return two_meanings(track->names.reader, name, "the variable of the curve", at);
         return (struct symbol){.kind = symbol_variable, .dim = track->dim, .slot = 1};
+    }
     return track->constants.lookup(&track->names, name, at);
 }
 

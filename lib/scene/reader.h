@@ -134,6 +134,7 @@ struct reader {
     bool names_inputs;           /* a compiled expression names an input */
     const struct override *time; /* of the input that replaces the time, or NULL */
 
+    int inside; /* the body whose block is being read, or ground_body */
     struct names constant_names;
     struct scope constants; /* parameters, g, pi */
 };
@@ -149,6 +150,9 @@ struct scene *scene_read_by(struct reader *reader, const struct document *docume
 /* Index of the parameter or input `name`; false if there is none. */
 bool parameters_find(const struct reader *reader, const char *name, size_t *index);
 
+/* Has the body a coordinate or rate of that name, by the `motion` in the file? */
+bool body_has_coordinate(const struct reader *reader, int body, const char *name);
+
 /* True if the name begins with `states.` and the file has states. */
 bool own_states_name(const struct reader *reader, const char *name);
 
@@ -159,6 +163,9 @@ const struct expr *override_compile(struct reader *reader, const struct override
 
 /* Set up names and overrides. Returns false only when memory is out. */
 bool parameters_start(struct reader *reader, const struct override *overrides, size_t count);
+
+/* Refuse parameters that have the name of a coordinate of the only body; warn of those with that of others. */
+void parameters_check_coordinates(struct reader *reader);
 
 /* Evaluate all. */
 void parameters_finish(struct reader *reader);

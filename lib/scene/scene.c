@@ -115,14 +115,17 @@ static void read_bodies(struct reader *reader)
     struct scene *scene = reader->scene;
     int count = (int)scene->body_count;
     for (int b = 0; b < count && !is_hopeless(reader); b++) {
+        reader->inside = b;
         bool body = body_read(reader, b), motion = reader->drafts[b].node && body_motion_read(reader, b);
         scene->bodies[b].complete = body && motion;
     }
+    reader->inside = ground_body;
     for (int b = 0; b < count && !is_hopeless(reader); b++)
         if (!body_parent_read(reader, b)) scene->bodies[b].complete = false;
     parents_check(reader);
     if (!number_coordinates(reader)) return;
     for (int b = 0; b < count && !is_hopeless(reader); b++) {
+        reader->inside = b;
         bool initial = body_initial_read(reader, b), mass = body_mass_read(reader, b);
         bool loads = body_loads_read(reader, b);
         bool hand = reader->without_hands ||
@@ -131,6 +134,7 @@ static void read_bodies(struct reader *reader)
         bool prescribed = body_prescribed_read(reader, b);
         if (!initial || !mass || !loads || !hand || !exact || !prescribed) scene->bodies[b].complete = false;
     }
+    reader->inside = ground_body;
     if (fbd_errors_failed_count(reader->errors) == 0) reactions_add(reader);
 }
 
@@ -152,6 +156,7 @@ static void read_scene(struct reader *reader, const struct override *overrides, 
     if (!tables_start(reader) || !parameters_start(reader, overrides, override_count) ||
         !own_states_start(reader) || !bodies_start(reader))
         return;
+    parameters_check_coordinates(reader);
     read_top(reader, &keys);
     symbols_check(reader, reader->symbols);
     read_bodies(reader);
@@ -220,6 +225,7 @@ static void start(struct reader *reader, const struct document *document, struct
 {
     struct arena *arena = &scene->arena;
     *reader = (struct reader){.scene = scene, .arena = arena, .errors = errors, .root = document->root};
+    reader->inside = ground_body;
     reader->without_hands = document->without_hands;
     reader->split_hands = document->split_hands;
     reader->hand_reader = document->hand_reader;

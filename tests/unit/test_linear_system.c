@@ -333,6 +333,7 @@ static void wrong_names_are_refused(void **unused)
 {
     (void)unused;
     assert_refused(mass_spring_damper, "b.y", "unknown-output");
+    assert_refused(mass_spring_damper, "b.G.proper_ax", "unknown-output");
     assert_refused("fbd: 1\nbodies: {b: {mass: 1 kg, motion: slide, forces: [spring: {stiffness: 1 N/m}]}}\n",
                    "b.x", "no-inputs");
     struct looked looked = look(mass_spring_damper);

@@ -41,6 +41,32 @@ static void parameters_stand_in_any_order(void **state)
     end_reading(&r);
 }
 
+/* Names of coordinates that the body of the expression has not: the parameter, wherever it stands. */
+static void a_parameter_may_be_called_as_a_coordinate_of_others(void **state)
+{
+    (void)state;
+    struct reading r =
+        read_text("fbd: 1\n"
+                  "parameters: {x: 3 m, omega: 2 rad/s, theta: '2*x/(1[m])'}\n"
+                  "bodies:\n"
+                  "  arm: {mass: 1, shape: rod, length: x, motion: {pivot: {point: left}},\n"
+                  "        moments: [{applied: 'x*1[N] + arm.theta*1[N*m]'}]}\n"
+                  "  block: {mass: theta, motion: slide,\n"
+                  "          initial: {v: '3[m]*omega/(1[rad])'}, forces: [{applied: '1[N*s]*omega'}]}\n"
+                  "simulate: {until: 1, events: [{name: e, when: 'block.v = omega*3[m]'}]}\n");
+    assert_int_equal(count_notes(&r, "coordinate-name"), 3);
+    assert_int_equal(fbd_errors_count(r.errors), 3);
+    const struct scene *scene = r.scene;
+    assert_close(scene->bodies[0].parts[0].length, 3);
+    assert_close(scene->bodies[1].parts[0].mass, 6);
+    assert_close(scene->coordinates[1].initial_rate, 6);
+    const double y[] = {0.5, 0, 0, 0}; /* theta of the arm */
+    assert_close(expr_eval(scene->bodies[0].loads[0].value.expr, 0, y, NULL), 3.5);
+    assert_close(expr_value(scene->bodies[1].loads[0].value.expr), 2);
+    assert_close(expr_eval(scene->events[0].right, 0, y, NULL), 6);
+    end_reading(&r);
+}
+
 static void a_file_may_be_read_with_other_values(void **state)
 {
     (void)state;
@@ -182,6 +208,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(parameters_stand_in_any_order),
+        cmocka_unit_test(a_parameter_may_be_called_as_a_coordinate_of_others),
         cmocka_unit_test(a_file_may_be_read_with_other_values),
         cmocka_unit_test(a_value_from_outside_is_checked_like_one_of_the_file),
         cmocka_unit_test(an_unknown_parameter_is_answered_by_the_nearest),

@@ -66,6 +66,30 @@ static void the_amplitude_of_a_pendulum_is_found_between_the_steps(void **state)
     close_table(&table);
 }
 
+static void a_point_moves_with_the_dimensions_of_its_body(void **state)
+{
+    (void)state;
+    static const char pendulum[] =
+        "fbd: 1\n"
+        "parameters: {l: 1 m}\n"
+        "bodies:\n"
+        "  p:\n"
+        "    {mass: 1, center: [0, -l], points: {tip: [0, -2*l]}, forces: [gravity],\n"
+        "     motion: {pivot: {at: [0, 0]}}, initial: {theta: 60 deg}}\n"
+        "simulate: {until: 20 s, events: [{name: low, when: theta = 0}]}\n";
+    struct sweep_table table =
+        sweep_of(pendulum, TEXTS("l=0.5,1,2"),
+                 TEXTS("max(p.G.x),max(p.tip.x),at(low,p.tip.y),min(p.O.y),max(p.G.proper_ay)"));
+    for (size_t i = 0; i < 3; i++) {
+        /* The amplitude is the start; at the lowest point omega^2 = g/l, so a - g = 2 g. */
+        const double l = number(&table, i, 1), tolerance = 1e-7;
+        const double want[] = {l * sqrt(3) / 2, l * sqrt(3), -2 * l, 0, 2 * 9.81};
+        for (size_t k = 0; k < sizeof want / sizeof *want; k++)
+            assert_true(fabs(number(&table, i, 2 + k) - want[k]) <= tolerance * fmax(1, fabs(want[k])));
+    }
+    close_table(&table);
+}
+
 static void runs_that_fail_are_rows_and_stop_no_others(void **state)
 {
     (void)state;
@@ -209,6 +233,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rows_show_what_happened),
         cmocka_unit_test(the_amplitude_of_a_pendulum_is_found_between_the_steps),
+        cmocka_unit_test(a_point_moves_with_the_dimensions_of_its_body),
         cmocka_unit_test(runs_that_fail_are_rows_and_stop_no_others),
         cmocka_unit_test(rows_do_not_depend_on_the_number_of_workers_or_where_one_starts),
         cmocka_unit_test(a_sweep_that_is_stopped_leaves_its_first_rows),

@@ -79,6 +79,8 @@ static void variables_are_listed_with_units_and_starts(void **unused)
         {"block.tip.vy", "m/s", FBD_VARIABLE_POINT, 0, NAN, false},
         {"block.tip.ax", "m/s^2", FBD_VARIABLE_POINT, 0, NAN, false},
         {"block.tip.ay", "m/s^2", FBD_VARIABLE_POINT, 0, NAN, false},
+        {"block.tip.proper_ax", "m/s^2", FBD_VARIABLE_POINT, 0, NAN, false},
+        {"block.tip.proper_ay", "m/s^2", FBD_VARIABLE_POINT, 0, NAN, false},
     };
     struct trial trial = trial_parse(scene);
     assert_int_equal(fbd_model_variable_count(trial.model), sizeof want / sizeof *want);
@@ -98,10 +100,10 @@ static void values_are_those_of_the_state(void **unused)
 {
     (void)unused;
     struct trial trial = trial_parse(scene);
-    double values[20];
+    double values[24];
     trial_set(&trial, "t", 0.5);
     trial_set(&trial, "block.x", 2);
-    size_t count = fbd_state_variables(trial.state, values, 20);
+    size_t count = fbd_state_variables(trial.state, values, 24);
     assert_int_equal(count, fbd_model_variable_count(trial.model));
     assert_true(values[0] == 0.5 && values[index_of(trial.model, "F")] == 3);
     assert_true(values[index_of(trial.model, "block.x")] == 2 &&

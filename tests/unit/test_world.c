@@ -95,10 +95,68 @@ static void an_end_of_a_thrown_rod(void **unused)
     assert_false(world_find(model, "c.y", &found));
     double values[world_parts];
     world_values(trial.state, 0, model->output_points[0], values);
-    const double want[world_parts] = {3, 2, 1 - 3, 2, 0, -9.81 - 9};
+    const double want[world_parts] = {3, 2, 1 - 3, 2, 0, -9.81 - 9, -9, 0};
     for (int part = 0; part < world_parts; part++)
         check_close(&checks, world_part_name((enum world_part)part), values[part], want[part], 1e-14);
     trial_close(&trial);
+    checks_end(&checks);
+}
+
+/* a - g in the axes of the body. */
+static void an_accelerometer_shows_the_closed_form(void **unused)
+{
+    struct checks checks = {0};
+    (void)unused;
+    const double g = 9.81, theta = 0.4, omega = 3, length = 2;
+    /* A rod about its end: alpha = -3 g cos(theta) / (2 L); at r the axial component is g sin(theta) - omega^2 r, the
+     * transverse one alpha r + g cos(theta), which vanishes at the centre of percussion r = 2 L / 3. */
+    const double r = 2 * length / 3, alpha = -1.5 * g * cos(theta) / length;
+    const struct {
+        const char *text, *point;
+        double x, y;
+    } cases[] = {
+        {"bodies: {c: {mass: 1, shape: rod, length: 2, motion: planar, initial: {theta: 0.7, vy: 3, omega: "
+         "3}, "
+         "forces: [gravity]}}",
+         "c.G", 0, 0},
+        {"bodies: {c: {mass: 1, shape: rod, length: 2, motion: {pivot: {point: left}}, points: {P: "
+         "['1[m]/3', 0]}, "
+         "initial: {theta: 0.4, omega: 3}, forces: [gravity]}}",
+         "c.P", g * sin(theta) - omega * omega * r, 0},
+        {"bodies: {c: {mass: 1, shape: rod, length: 2, motion: {pivot: {point: left}}, "
+         "initial: {theta: 0.4, omega: 3}, forces: [gravity]}}",
+         "c.right", g * sin(theta) - omega * omega * length, alpha * length + g * cos(theta)},
+        {"bodies: {c: {mass: 1, shape: disc, radius: 2, motion: pivot, points: {rim: [0, 2]}, "
+         "initial: {theta: 0.4, omega: 3}}}",
+         "c.rim", 0, -omega * omega * 2},
+        {"plane: horizontal\nbodies: {c: {mass: 1, motion: {slide: {along: 30 deg}}, forces: [{applied: "
+         "5}]}}",
+         "c.G", 5, 0},
+        {"bodies: {c: {mass: 1, motion: {slide: {along: 0.4}}, forces: [gravity, normal]}}", "c.G", 0,
+         g * cos(theta)},
+        {"bodies: {c: {mass: 1, motion: particle, initial: {vx: 3}}, other: {mass: 1, motion: particle, "
+         "forces: "
+         "[gravity]}}",
+         "c.G", 0, g},
+        {"bodies: {c: {mass: 1, motion: particle, initial: {vx: 3}}}", "c.G", 0, 0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[400];
+        snprintf(text, sizeof text, "fbd: 1\n%s\nsimulate: {until: 1}\n", cases[i].text);
+        struct trial trial = trial_parse(text);
+        state_evaluate(trial.state);
+        char name[32];
+        struct world_quantity found;
+        double values[world_parts];
+        snprintf(name, sizeof name, "%s.proper_ax", cases[i].point);
+        assert_true(world_find(trial.state->model, name, &found));
+        assert_int_equal(found.part, world_proper_ax);
+        world_values(trial.state, found.body, world_point(trial.state->model, found.body, found.point),
+                     values);
+        check_close(&checks, name, values[world_proper_ax], cases[i].x, 1e-13);
+        check_close(&checks, name, values[world_proper_ay], cases[i].y, 1e-13);
+        trial_close(&trial);
+    }
     checks_end(&checks);
 }
 
@@ -107,6 +165,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_move_as_they_say),
         cmocka_unit_test(an_end_of_a_thrown_rod),
+        cmocka_unit_test(an_accelerometer_shows_the_closed_form),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
