@@ -171,11 +171,12 @@ static struct vec any_of_applied(const struct samples *samples, const struct mod
     return applied_force(&acting, &pose, at);
 }
 
-static struct vec any_force(const struct samples *samples, const struct instant *at,
-                            const struct model_body *joint, const struct model_load *load)
+static struct vec any_force(const struct samples *samples, const struct instant *at, int joint,
+                            const struct model_load *load)
 {
     const struct fbd_model *model = samples->apart->model;
-    if (joint && joint->joint->path != path_none) return surface_normal(model, joint, at);
+    if (joint >= 0 && model->bodies[joint].joint->path != path_none)
+        return surface_normal(model, &model->bodies[joint], at);
     if (!load) return any(samples->rng);
     const struct model_body *body = &model->bodies[load->body];
     if (load->source->kind == load_applied) return any_of_applied(samples, load, at);
@@ -188,12 +189,12 @@ static void set_any(const struct samples *samples, const struct instant *at,
                     const struct force_symbol *symbol, struct arrow *arrow)
 {
     const struct fbd_model *model = samples->apart->model;
-    const struct model_body *joint = symbol && symbol->joint >= 0 ? &model->bodies[symbol->joint] : NULL;
+    const int joint = symbol ? symbol->joint : -1;
     const struct model_load *load = arrow->load >= 0 ? &model->loads[arrow->load] : NULL;
     const bool moment = symbol && symbol->moment;
-    if (!moment || joint) arrow->force = any_force(samples, at, joint, load);
-    if (!moment && !joint && !load) arrow->point = vec_add(arrow->point, any(samples->rng));
-    if (moment || (joint && !joint->joint->has_axis && !joint->alone))
+    if (!moment || joint >= 0) arrow->force = any_force(samples, at, joint, load);
+    if (!moment && joint < 0 && !load) arrow->point = vec_add(arrow->point, any(samples->rng));
+    if (moment || (joint >= 0 && !model->bodies[joint].joint->has_axis && !model->bodies[joint].alone))
         arrow->couple = sample_between(samples->rng, 1, 2);
 }
 
