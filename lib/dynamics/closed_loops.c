@@ -55,8 +55,10 @@ static size_t arm_count(const struct tree *tree)
 size_t closed_loops_size(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
-    if (model->names_places || tree->ends || tree->massless_count > 0 || !has_simple_joints(tree) ||
-        !has_pins_only(tree))
+    /* Rows of other bodies and of user states know no positions in the world. */
+    const bool others = tree->joined < tree->count || model->plan.own > 0;
+    if ((model->names_places && others) || tree->ends || tree->massless_count > 0 ||
+        !has_simple_joints(tree) || !has_pins_only(tree))
         return 0;
     int independent = tree->joined - 1 - 2 * tree->coupling_count;
     if (independent < 1 || independent > most_independent) return 0;
@@ -221,8 +223,9 @@ static void clear_independent(const struct closed_loops *loops, double *x)
 static void choose_again(struct closed_loops *loops)
 {
     const double changed = 4;
-    if (loops->chosen >= 0 && (loops->share >= well || (loops->share * changed > loops->chosen &&
-                                                        loops->share < loops->chosen * changed)))
+    if (loops->chosen >= 0 &&
+        (loops->held || loops->share >= well ||
+         (loops->share * changed > loops->chosen && loops->share < loops->chosen * changed)))
         return;
     closed_loops_choose(loops);
     for (int k = 0; k < loops->pin_count; k++)
@@ -250,7 +253,7 @@ static double correct(struct closed_loops *loops)
 static bool is_regular(struct closed_loops *loops)
 {
     if (loops->share >= well || loops->even) return true;
-    loops->unfit = true;
+    if (!loops->held) loops->unfit = true;
     return false;
 }
 
@@ -451,7 +454,7 @@ bool closed_loops_rates(struct closed_loops *loops, const struct instant *at, in
     set_basis(loops);
     move_links(loops, links);
     bool even = set_particular(loops, links);
-    if (loops->share >= well) loops->even = even;
+    if (loops->share >= well && !loops->held) loops->even = even;
     if (!is_regular(loops)) return false;
     add_free_motion(loops, at, slots);
     for (int i = 1; i < loops->tree->joined; i++) {

@@ -27,7 +27,8 @@
  * and rates of the pins that are rounding stay, and right-hand sides of a_p that are explained by such gaps and
  * rates, e / s^2, are zero. Then a row of parallelograms passes its singular positions exactly.
  *
- * The choice of dependent coordinates is changed where it is ill-conditioned. Where every choice is, or where
+ * The choice of dependent coordinates is changed where it is ill-conditioned, by steps alone: evaluations
+ * between them, for events and output, hold it, so that the motion does not depend on it. Where every choice is, or where
  * Newton's method would have to move farther than a fraction of s, and so perhaps to another branch, these
  * rates are refused: constraint_solve.c serves there.
  */
@@ -70,6 +71,7 @@ struct closed_loops {
     bool even;      /* the last well-conditioned a_p was zero */
     bool unfit;     /* no choice exists, or a singular position has been met: refused for good */
     bool suspended; /* refused for a step */
+    bool held;      /* the choice, `even` and `unfit` are not changed */
 };
 
 /* Has the scene such loops? Their memory in bytes (a multiple of the size of a double), 0 if not. */
@@ -90,6 +92,13 @@ bool closed_loops_close(struct closed_loops *loops, struct tree_work *work, int 
 static inline void closed_loops_suspend(struct closed_loops *loops, bool suspended)
 {
     if (loops) loops->suspended = suspended;
+}
+
+/* From the end of a step to the begin of the next: hold the choice of dependent coordinates, and `even` and `unfit`.
+ * `loops` may be NULL. */
+static inline void closed_loops_hold(struct closed_loops *loops, bool held)
+{
+    if (loops) loops->held = held;
 }
 
 /* Close the loops of another state of the scene as the rates `loops` of the last step have done; or NULL. */

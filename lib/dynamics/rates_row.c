@@ -8,6 +8,7 @@
 #include "dynamics/friction.h"
 #include "dynamics/tree.h"
 #include "dynamics/user_states.h"
+#include "dynamics/world_refs.h"
 
 int held_row(double t, const double y[], double dydt[], void *params)
 {
@@ -121,9 +122,10 @@ int loops_row(double t, const double y[], double dydt[], void *params)
 {
     const struct row *row = params;
     const struct fbd_state *state = row->all->state;
-    struct instant at = smooth_instant(state, t, y);
-    force_slots(state->model, &at, state->slots);
-    if (!closed_loops_rates(state->tree->loops, &at, state->model->plan.n, state->slots, dydt))
+    struct instant plain = smooth_instant(state, t, y), room;
+    const struct instant *at = instant_with_places(state->model, &plain, &room);
+    force_slots(state->model, at, state->slots);
+    if (!closed_loops_rates(state->tree->loops, at, state->model->plan.n, state->slots, dydt))
         return whole_row(t, y, dydt, params);
     return 0;
 }

@@ -373,10 +373,12 @@ static bool make_step(struct run *run, struct turn *turn)
     enum { most_times = 30 };
     const double shorter = 0.25;
     for (int time = 0;; time++) {
+        closed_loops_hold(run->during->tree->loops, false);
         closed_loops_suspend(run->during->tree->loops, false);
         enum stepper_status status = switcher_step(run->stepper, &run->system, &turn->t, run->work.y,
                                                    run->work.f, &run->step.h, turn->limit);
         closed_loops_agree(run->state->tree->loops, run->during->tree->loops);
+        closed_loops_hold(run->during->tree->loops, true);
         if (status == stepper_underflow && !run->plain && go_beyond(run, turn)) continue;
         if (run->end.outcome != FBD_GOING) return false;
         if (status != stepper_ok) run_fail_step(run, status);

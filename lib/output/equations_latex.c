@@ -82,6 +82,13 @@ static void write_equation(struct writer *w, const struct equation *equation)
     text_add(text, "\n\\end{align*}\n");
 }
 
+static void write_idle(struct writer *w, const struct idle_line *line)
+{
+    text_add(w->text, "\\begin{align*}\n");
+    symbol_write_latex(w->text, line->symbols);
+    text_printf(w->text, " \\quad \\text{%s}\n\\end{align*}\n", line->when);
+}
+
 static void write_kinematics(struct writer *w, int b, const char *const *lines, int count)
 {
     struct text *text = w->text;
@@ -100,4 +107,5 @@ const struct equations_pass latex_equations = {.symbolic = true,
                                                .begin = write_head,
                                                .includes = in_symbols,
                                                .equation = write_equation,
+                                               .idle = write_idle,
                                                .kinematics = write_kinematics};

@@ -104,6 +104,13 @@ static void write_equation(struct writer *w, const struct equation *equation)
     write_numbers(w->text, e);
 }
 
+static void write_idle(struct writer *w, const struct idle_line *line)
+{
+    text_add(w->text, "<p class=\"equation\">");
+    mathml_write(w->text, "", line->symbols);
+    text_printf(w->text, " %s</p>\n", line->when);
+}
+
 static void write_kinematics(struct writer *w, int b, const char *const *lines, int count)
 {
     text_printf(w->text, "<p class=\"equation-name\">%s: acceleration of G</p>\n",
@@ -118,4 +125,5 @@ static void write_kinematics(struct writer *w, int b, const char *const *lines, 
 const struct equations_pass mathml_equations = {.symbolic = true,
                                                 .includes = in_symbols,
                                                 .equation = write_equation,
+                                                .idle = write_idle,
                                                 .kinematics = write_kinematics};

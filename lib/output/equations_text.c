@@ -141,6 +141,11 @@ static void write_line(struct writer *w, const struct equation *equation)
     if (line) text_printf(w->text, "    %s\n", line);
 }
 
+static void write_idle(struct writer *w, const struct idle_line *line)
+{
+    text_printf(w->text, "    %s %s\n", line->symbols, line->when);
+}
+
 static void write_kinematics(struct writer *w, int b, const char *const *lines, int count)
 {
     (void)b;
@@ -152,4 +157,5 @@ const struct equations_pass text_symbols = {.symbolic = true,
                                             .body = write_name,
                                             .includes = in_symbols,
                                             .equation = write_line,
+                                            .idle = write_idle,
                                             .kinematics = write_kinematics};

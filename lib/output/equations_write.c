@@ -22,6 +22,16 @@ static void walk_kinematics(struct writer *w, const struct equations_pass *pass,
     w->written++;
 }
 
+static void walk_idle(struct writer *w, const struct equations_pass *pass, int b)
+{
+    struct idle_line lines[idle_kinds];
+    const int count = idle_lines(&w->formulas, b, lines);
+    for (int i = 0; i < count; i++) {
+        w->text->failed |= !lines[i].symbols;
+        if (lines[i].symbols) pass->idle(w, &lines[i]);
+    }
+}
+
 static void walk(struct writer *w, const struct equations_pass *pass)
 {
     const struct fbd_model *model = w->state->model;
@@ -35,6 +45,7 @@ static void walk(struct writer *w, const struct equations_pass *pass)
             pass->equation(w, &all->equations[i]);
             w->written++;
         }
+        if (pass->idle && body_is_cut_free(model, (int)b, w->components)) walk_idle(w, pass, (int)b);
         if (pass->kinematics && body_is_cut_free(model, (int)b, w->components))
             walk_kinematics(w, pass, (int)b);
     }

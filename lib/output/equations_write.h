@@ -8,6 +8,7 @@
 
 #include "fbd_export.h"
 #include "output/formulas.h"
+#include "output/idle_lines.h"
 
 struct writer {
     struct text *text;
@@ -26,7 +27,9 @@ struct equations_pass {
     void (*body)(struct writer *w, int b); /* before its equations */
     bool (*includes)(const struct writer *w, const struct equation *equation);
     void (*equation)(struct writer *w, const struct equation *equation);
-    /* after the equations of a body cut free: the acceleration of its G, if it has such lines */
+    /* after the equations of a body cut free: which of their terms are zero now */
+    void (*idle)(struct writer *w, const struct idle_line *line);
+    /* and then the acceleration of its G, if it has such lines */
     void (*kinematics)(struct writer *w, int b, const char *const *lines, int count);
     void (*end)(struct writer *w);
 };

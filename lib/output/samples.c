@@ -15,25 +15,25 @@ static const double same = 1e-9; /* relative: projected states have errors above
 
 /* ---- the states */
 
-static double between(gsl_rng *rng, double low, double high)
+double sample_between(gsl_rng *rng, double low, double high)
 {
     return low + (high - low) * gsl_rng_uniform(rng);
 }
 
-static void move(struct fbd_state *state, gsl_rng *rng, double reach)
+void sample_move(struct fbd_state *state, gsl_rng *rng, double reach)
 {
     const struct scene *scene = state->model->scene;
     const struct value *until = &scene->simulate.until;
     const size_t n = scene->coordinate_count;
-    state->t += between(rng, 0, 0.1) * reach * (until->expr ? expr_value(until->expr) : 1);
+    state->t += sample_between(rng, 0, 0.1) * reach * (until->expr ? expr_value(until->expr) : 1);
     for (size_t i = 0; i < n; i++) {
         const struct coordinate *c = &scene->coordinates[i];
         const struct curve *curve = scene->bodies[c->body].motion.curve;
-        state->y[i] += reach * between(rng, -1, 1) * (c->angle ? 0.3 : 0.1);
+        state->y[i] += reach * sample_between(rng, -1, 1) * (c->angle ? 0.3 : 0.1);
         if (curve) state->y[i] = fmin(fmax(state->y[i], curve->start), curve->start + curve->length);
-        state->y[n + i] += between(rng, -1, 1);
+        state->y[n + i] += sample_between(rng, -1, 1);
     }
-    for (size_t i = 0; i < scene->own_count; i++) state->y[2 * n + i] += between(rng, -1, 1);
+    for (size_t i = 0; i < scene->own_count; i++) state->y[2 * n + i] += sample_between(rng, -1, 1);
 }
 
 /* Set sticking friction to slipping and slack ropes to taut, as their forces may be zero in the present
@@ -47,13 +47,9 @@ static void take_other_modes(struct fbd_state *state)
     }
 }
 
-static bool draw(struct fbd_state *state, const struct fbd_state *from, gsl_rng *rng, double reach,
-                 bool other)
+bool sample_evaluate(struct fbd_state *state)
 {
-    const struct fbd_model *model = from->model;
-    state_copy(state, from);
-    move(state, rng, reach);
-    if (other) take_other_modes(state);
+    const struct fbd_model *model = state->model;
     modes_drive(state);
     if (model->tree->coupling_count > 0 && !state_project(state, false)) return false;
     state->settled = true;
@@ -62,6 +58,15 @@ static bool draw(struct fbd_state *state, const struct fbd_state *from, gsl_rng 
     for (int i = 0; i < model->plan.n; i++)
         if (!isfinite(state->a[i])) return false;
     return true;
+}
+
+static bool draw(struct fbd_state *state, const struct fbd_state *from, gsl_rng *rng, double reach,
+                 bool other)
+{
+    state_copy(state, from);
+    sample_move(state, rng, reach);
+    if (other) take_other_modes(state);
+    return sample_evaluate(state);
 }
 
 /* Draw all states; if couplings have no consistent state so far away, try nearer ones. */
@@ -83,16 +88,19 @@ bool samples_begin(struct samples *samples, struct fbd_state *state, struct aren
 {
     *samples = (struct samples){.count = 1, .states = {state}};
     samples->arrows = ARENA_ARRAY(arena, diagram_most_arrows(state->model), struct arrow);
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    const bool done = samples->arrows && rng && hand_forces_make(state->model, arena, &samples->forces) &&
-                      draw_all(samples, state, rng);
-    if (rng) gsl_rng_free(rng);
-    return done;
+    samples->arena = arena;
+    samples->kept = ARENA_ARRAY(arena, state->model->body_count, struct acts_kept *);
+    samples->rng = gsl_rng_alloc(gsl_rng_mt19937);
+    samples->apart = state_new(state->model);
+    return samples->arrows && samples->kept && samples->rng && samples->apart &&
+           hand_forces_make(state->model, arena, &samples->forces) && draw_all(samples, state, samples->rng);
 }
 
 void samples_end(struct samples *samples)
 {
     for (int i = 1; i < samples->count; i++) state_free(samples->states[i]);
+    state_free(samples->apart);
+    if (samples->rng) gsl_rng_free(samples->rng);
 }
 
 /* ---- an arrow */
@@ -123,29 +131,42 @@ static struct vec arm_to(struct vec point, struct vec about)
     return rounding ? (struct vec){0, 0} : arm;
 }
 
-struct acts acts_of(const struct samples *samples, int b, const char *name, bool about_axis)
+void acts_add(struct acts *acts, const struct samples *samples, const struct instant *at,
+              const struct acting *acting, size_t i)
 {
+    const struct model_body *body = &samples->apart->model->bodies[acting->body];
+    const struct pose pose = body_pose(body, at);
+    const struct vec about = acting->about_axis ? pose.origin : point_motion(body, &pose, body->inertia.G).p;
+    const struct arrow *arrow = &samples->arrows[i];
+    acts->list[acts->count++] = (struct act){.force = arrow->force,
+                                             .arm = arm_to(arrow->point, about),
+                                             .turn = pose.rotation,
+                                             .couple = arrow->couple,
+                                             .size = size_of(samples, at, acting->body, i)};
+}
+
+size_t acting_arrow(const struct acting *acting, const struct arrow *arrows, size_t count)
+{
+    size_t i = 0;
+    while (i < count && strcmp(arrows[i].name, acting->name) != 0) i++;
+    return i;
+}
+
+struct acts acts_of(const struct samples *samples, int body, const char *name, bool about_axis)
+{
+    const struct acting acting = {body, name, about_axis};
     struct acts acts = {0};
     for (int k = 0; k < samples->count; k++) {
         const struct fbd_state *state = samples->states[k];
-        const struct model_body *body = &state->model->bodies[b];
         const struct instant at = state_instant(state);
-        const struct pose pose = body_pose(body, &at);
-        const struct vec about = about_axis ? pose.origin : point_motion(body, &pose, body->inertia.G).p;
-        struct arrow *arrows = samples->arrows;
-        const size_t count = diagram_list(state->model, b, &at, state->slots, arrows);
-        for (size_t i = 0; i < count; i++) {
-            if (strcmp(arrows[i].name, name) != 0) continue;
-            const double force = vec_norm(arrows[i].force);
-            if (force <= least_force(arrows, count) && arrows[i].couple == 0) break;
-            acts.list[acts.count++] = (struct act){.force = arrows[i].force,
-                                                   .arm = arm_to(arrows[i].point, about),
-                                                   .turn = pose.rotation,
-                                                   .couple = arrows[i].couple,
-                                                   .size = size_of(samples, &at, b, i)};
-            break;
-        }
+        const struct arrow *arrows = samples->arrows;
+        const size_t count = diagram_list(state->model, body, &at, state->slots, samples->arrows),
+                     i = acting_arrow(&acting, arrows, count);
+        if (i == count) continue;
+        const bool zero = vec_norm(arrows[i].force) <= least_force(arrows, count) && arrows[i].couple == 0;
+        if (!zero) acts_add(&acts, samples, &at, &acting, i);
     }
+    if (acts.count == 0) acts_apart(&acts, samples, &acting);
     return acts;
 }
 

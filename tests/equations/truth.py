@@ -22,6 +22,7 @@ WORDS = re.compile(r"acts across(?: the guide)?|through the axis|m g along (?:x|
                    r"k \(l - l0\) toward its end|-c l' along its line")
 NORMAL = re.compile(r"acts across: N = (\S+)(?: \(contact is lost.*\))?")
 STICKS = re.compile(r"sticks: the force of equilibrium, up to (.*) = (\S+)")
+IDLE = re.compile(r"(.* = )0 (while out of contact|while slack|before the beginning|after the end)")
 SLIPS = re.compile(r"slips: (\S.*?)(?: at slip = \S+)?")
 
 
@@ -548,14 +549,24 @@ def centers(scene, b, arrows):
 
 
 def lines_of(report):
-    """{body: lines} of the bodies cut free, as the report has them."""
-    found, b = {}, None
+    """{body: lines} of the bodies cut free, as the report has them; and {body: symbols of forces that are zero now}."""
+    found, idle, b = {}, {}, None
     for line in report.partition("\nCut free, in symbols at this time\n")[2].splitlines():
         if line[:4] != "    ":
             b = line.strip()
+        elif IDLE.fullmatch(line.strip()):
+            idle.setdefault(b, []).extend(IDLE.fullmatch(line.strip())[1].split(" = ")[:-1])
         else:
             found.setdefault(b, []).append(line.strip())
-    return found
+    return found, idle
+
+
+def judge_idle(found, b, symbol):
+    """A force that is said to be zero now stands in an equation of the body, and is zero."""
+    word = re.compile(rf"(?<![\w.]){re.escape(symbol)}(_?[xy])?(?![\w.])")
+    terms = [t for e in found["equations"] if e["body"] == b for t in e["terms"] if word.search(t.get("symbol", ""))]
+    assert terms, f"{symbol} of {b} is in no equation"
+    assert all(t["value"] == 0 for t in terms), f"{symbol} of {b} is not zero"
 
 
 def judge_state(scene, model):
@@ -611,7 +622,12 @@ def judge_state(scene, model):
             left, right = line.split(" = ")
             assert any(from_latex(p) == left and from_latex(q) == right for p, _, q in (
                 x.partition(" &= ") for x in latex.splitlines())), f"LaTeX lacks {line}"
-    assert {b: sorted(lines) for b, lines in lines_of(report).items()} == {b: sorted(lines) for b, lines in plain.items()}, \
+    reported, idle = lines_of(report)
+    for b, symbols in idle.items():
+        for symbol in symbols:
+            judge_idle(found, b, symbol)
+            judge.counts["zero now"] += 1
+    assert {b: sorted(lines) for b, lines in reported.items()} == {b: sorted(lines) for b, lines in plain.items()}, \
         "report and JSON differ"
     for (b, name), texts in labels.items():
         arrow = place.arrows[b, name]

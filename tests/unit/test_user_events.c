@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "fbd.h"
+#include "fbd_view.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -56,6 +57,21 @@ static const struct eventful scenes[] = {
      "deg, omega: -1}, forces: [gravity]}\n"
      "couplings:\n  - pin: {name: B1, between: [h0.right, v1.right]}\n",
      "4", "flat: v0.right.y = 0; turn: v0.theta = -270 deg", 5},
+    /* The same by dynamics/closed_loops.h, whose dependent coordinates change there. */
+    {"two windows of bars", "v0.theta v0.omega h0.theta v1.theta h1.theta v2.theta v2.omega",
+     "  v0: {shape: rod, mass: 1, length: 1, motion: {pivot: {at: [0, 0], point: left}}, initial: {theta: 90 "
+     "deg, omega: -1}, forces: [gravity]}\n"
+     "  h0: {shape: rod, mass: 1, length: 1, motion: {pivot: {on: v0, at: right, point: left}}, initial: "
+     "{theta: -90 deg, omega: 1}, forces: [gravity]}\n"
+     "  v1: {shape: rod, mass: 1, length: 1, motion: {pivot: {at: [1, 0], point: left}}, initial: {theta: 90 "
+     "deg, omega: -1}, forces: [gravity]}\n"
+     "  h1: {shape: rod, mass: 1, length: 1, motion: {pivot: {on: v1, at: right, point: left}}, initial: "
+     "{theta: -90 deg, omega: 1}, forces: [gravity]}\n"
+     "  v2: {shape: rod, mass: 1, length: 1, motion: {pivot: {at: [2, 0], point: left}}, initial: {theta: 90 "
+     "deg, omega: -1}, forces: [gravity]}\n"
+     "couplings:\n  - pin: {name: p0, between: [h0.right, v1.right]}\n"
+     "  - pin: {name: p1, between: [h1.right, v2.right]}\n",
+     "6", "flat: v0.right.y = 0; many: sin(7*v0.theta) = 0.5", 48},
 };
 
 static void write_scene(const struct eventful *scene, bool events, char *text)
@@ -146,6 +162,57 @@ static void nothing_changes_but_the_log(void **unused)
     assert_int_equal(wrong, 0);
 }
 
+/* The coordinates at the end of a run that is carried on from a state for 2 s. */
+static void end_of(const fbd_state *from, double y[most_values])
+{
+    fbd_options options = FBD_OPTIONS_DEFAULT;
+    double t;
+    assert_true(fbd_state_get(from, "t", &t));
+    options.until = t + 2;
+    fbd_simulation *simulation = fbd_simulation_from(from, &options, NULL);
+    fbd_result *result = fbd_simulation_run(simulation, NULL);
+    assert_int_equal(fbd_result_outcome(result), FBD_DONE);
+    const fbd_state *end = fbd_result_state(result);
+    static const char *const names[] = {"v0.theta", "v0.omega", "h0.theta", "v1.theta",
+                                        "h1.theta", "v2.theta", "v2.omega"};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++)
+        assert_true(fbd_state_get(end, names[k], &y[k]));
+    fbd_result_free(result);
+    fbd_simulation_free(simulation);
+}
+
+/* In the middle of a motion with closed loops, after the singular positions, a state, its copy and its pack, unpacked,
+ * go on alike. */
+static void copies_of_closed_loops_go_on_alike(void **unused)
+{
+    (void)unused;
+    char text[text_size];
+    write_scene(&scenes[sizeof scenes / sizeof *scenes - 1], false, text);
+    fbd_model *model = model_from(text);
+    fbd_simulation *simulation = fbd_simulation_new(model, NULL, NULL);
+    fbd_state *state = fbd_state_new(model), *copy = fbd_state_new(model), *unpacked = fbd_state_new(model);
+    fbd_outcome outcome = FBD_GOING;
+    double t = 0, y[3][most_values] = {{0}}, numbers[100];
+    while (outcome == FBD_GOING && t < 3) {
+        outcome = fbd_simulation_advance(simulation);
+        fbd_simulation_interval(simulation, NULL, &t);
+    }
+    assert_true(fbd_simulation_state(simulation, t, state));
+    assert_true(fbd_state_copy(copy, state));
+    const size_t count = fbd_state_pack(state, numbers, sizeof numbers / sizeof *numbers);
+    assert_true(count <= sizeof numbers / sizeof *numbers && fbd_state_unpack(unpacked, numbers, count));
+    end_of(state, y[0]);
+    end_of(copy, y[1]);
+    end_of(unpacked, y[2]);
+    assert_memory_equal(y[0], y[1], sizeof y[0]);
+    assert_memory_equal(y[0], y[2], sizeof y[0]);
+    fbd_state_free(unpacked);
+    fbd_state_free(copy);
+    fbd_state_free(state);
+    fbd_simulation_free(simulation);
+    fbd_model_free(model);
+}
+
 /* One step of a body that nothing pushes has 31,830 zeros of sin(10^5 x). */
 static void thousands_in_a_step_are_told(void **unused)
 {
@@ -193,6 +260,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_changes_but_the_log),
+        cmocka_unit_test(copies_of_closed_loops_go_on_alike),
         cmocka_unit_test(thousands_in_a_step_are_told),
         cmocka_unit_test(a_method_at_a_loss_comes_to_its_end),
     };

@@ -73,9 +73,9 @@ function inertiaIn(equation) {
   return (t, row) => equation.value * mass(t, row) / equation.massAtStart;
 }
 
-// The displayed terms: those with a symbol, and those that are nonzero at some time.
+// The displayed terms: in symbols those with a symbol, else those that are nonzero at some time.
 function writtenTerms(equation) {
-  return equation.terms.filter(([, index, symbol]) => symbol || sizeOf(index) > roundingOf(equation.unit));
+  return equation.terms.filter(([, index, symbol]) => equation.left ? symbol : sizeOf(index) > roundingOf(equation.unit));
 }
 
 // The sign of a term; without space around the first one.
@@ -93,7 +93,7 @@ function inSymbols(equation) {
   terms.forEach(([name, , symbol], i) => {
     const negative = symbol.startsWith("-");
     if (i || negative) row.append(termSign(i === 0, negative ? "−" : "+"));
-    row.append(markTerm(math("mrow", ...mathOf(negative ? symbol.slice(1) : symbol || `(${name})`)), equation, name));
+    row.append(markTerm(math("mrow", ...mathOf(negative ? symbol.slice(1) : symbol)), equation, name));
   });
   if (!terms.length) row.append(math("mn", "0"));
   return mathLine(row);
