@@ -140,6 +140,26 @@ const struct named_scene all_scenes[] = {
      "    forces:\n"
      "      - applied: {name: link, value: '-8[N/m]*(x - a.x) - 0.3[N*s/m]*(v - a.v)'}\n"
      "simulate: {until: 1 s}\n"},
+    {"body that feels the place of a chain of pivots",
+     "fbd: 1\n"
+     "bodies:\n"
+     "  a:\n"
+     "    {shape: rod, length: 1 m, mass: 1 kg, motion: {pivot: {at: [0, 0], point: left}}, forces: "
+     "[gravity]}\n"
+     "  b:\n"
+     "    shape: rod\n"
+     "    length: 1 m\n"
+     "    mass: 1 kg\n"
+     "    motion: {pivot: {on: a, at: right, point: left}}\n"
+     "    initial: {theta: 40 deg}\n"
+     "    forces: [gravity]\n"
+     "  c:\n"
+     "    mass: 1 kg\n"
+     "    motion: {particle: {}}\n"
+     "    initial: {x: 2}\n"
+     "    forces:\n"
+     "      - applied: {name: link, fx: '-8[N/m]*(x - b.right.x)', fy: 3*b.angle}\n"
+     "simulate: {until: 1 s}\n"},
 };
 
 const size_t all_scenes_count = sizeof all_scenes / sizeof *all_scenes;
