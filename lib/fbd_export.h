@@ -255,8 +255,8 @@ typedef struct fbd_fmu_options {
 } fbd_fmu_options;
 
 /* The FMU for co-simulation, and for model exchange where that can be had (fbd_model_exchanges), with that binary, as bytes of a zip archive, to be freed with fbd_free; *length
- * is their number. NULL with notes in `errors`: those of wrong options (see fbd_simulation_new), of an
- * inadmissible start (see fbd_state_close), `cannot-read` for the data file of a table, `bad-call`, or memory
+ * is their number. NULL with notes in `errors`: those of wrong options (see fbd_simulation_new), also for an input that a
+ * callback computes, of an inadmissible start (see fbd_state_close), `cannot-read` for the data file of a table, `bad-call`, or memory
  * is out. */
 FBD_API char *fbd_fmu(const fbd_model *model, const fbd_fmu_options *options, size_t *length,
                       fbd_errors *errors);

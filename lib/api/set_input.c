@@ -129,7 +129,7 @@ static bool begin_again(fbd_simulation *simulation, struct fbd_state *start, fbd
     options.continues = true;
     options.delays = false;
     options.ends_only = true;
-    state_still(start, options.until - start->t);
+    state_still(start, options.until);
     struct ensemble *after = ensemble_new(simulation->ensemble->model, &options);
     if (after && after->refused) {
         simulation_blame(after, errors);

@@ -151,7 +151,7 @@ static fbd_simulation *simulation_from(const fbd_state *state, const fbd_options
     fbd_simulation *simulation = NULL;
     if (start) {
         state_copy(start, state);
-        state_still(start, chosen.until - state->t);
+        state_still(start, chosen.until);
         chosen.start = start;
         simulation = begin(calloc(1, sizeof *simulation), state->model, &chosen, false, errors);
     } else {

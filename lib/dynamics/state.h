@@ -117,9 +117,9 @@ void state_copy_lives(struct fbd_state *to, const struct fbd_state *from);
 /* Make `to` equal to `from`; both belong to the same model. */
 void state_copy(struct fbd_state *to, const struct fbd_state *from);
 
-/* Set rates to zero that within `duration` change the coordinates of their kind by less than a rounding, so
+/* Set rates to zero that in a run to the time `until` change the coordinates of their kind by less than a rounding, so
  * that bodies at rest stay there. */
-void state_still(struct fbd_state *state, double duration);
+void state_still(struct fbd_state *state, double until);
 
 /* The switches in a sliding mode, or NULL. */
 static inline struct sliding *state_sliding(const struct fbd_state *state)

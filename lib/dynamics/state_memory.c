@@ -113,9 +113,12 @@ void state_copy(struct fbd_state *to, const struct fbd_state *from)
         memcpy(to->tree->couplings, from->tree->couplings, coupling_bytes(from->model));
 }
 
-void state_still(struct fbd_state *state, double duration)
+void state_still(struct fbd_state *state, double until)
 {
     size_t n = (size_t)state->model->plan.n;
+    /* The time that is left may be zero, or a rounding of the time. */
+    const double duration = fmax(fabs(state->t), fabs(until));
+    if (duration == 0) return;
     const struct coordinate *coordinates = state->model->scene->coordinates;
     double size[2] = {0, 1}; /* of lengths, and of angles */
     for (size_t i = 0; i < n; i++) {

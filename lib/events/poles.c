@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "dynamics/tree.h"
 #include "dynamics/world_refs.h"
 #include "numeric/tolerances.h"
 
@@ -30,14 +31,20 @@ bool poles_init(struct poles *poles, const struct fbd_model *model, struct arena
     return true;
 }
 
-/* At an instant and along a direction, both extended (world_refs.h). */
-static void divisors_at(const struct plan *plan, const struct instant *at, const struct direction *along,
-                        double *divisors, double *rates)
+/* At an instant and along a direction, both extended (world_refs.h). A force that has not begun, or has ended,
+ * divides by nothing. */
+static void divisors_at(const struct fbd_model *model, const struct instant *at,
+                        const struct direction *along, double *divisors, double *rates)
 {
+    const struct plan *plan = &model->plan;
     for (size_t i = 0; i < plan->pole_count; i++) {
         const struct formula *formula = &plan->poles[i].formula;
-        expr_divisors(formula->expr, at->t, at->y, along->dt, along->dy, formula_branches(formula, at),
-                      divisors, rates);
+        const int load = plan->poles[i].load;
+        if (load >= 0 && !is_there(at->tree, model->loads[load].source->lifetime.number))
+            for (size_t k = 0; k < plan->poles[i].count; k++) divisors[k] = HUGE_VAL, rates[k] = 0;
+        else
+            expr_divisors(formula->expr, at->t, at->y, along->dt, along->dy, formula_branches(formula, at),
+                          divisors, rates);
         divisors += plan->poles[i].count;
         rates += plan->poles[i].count;
     }
@@ -77,7 +84,7 @@ double poles_longest_step(struct poles *poles, const struct fbd_state *state, co
     memcpy(poles->dy, state->y + n, n * sizeof(double));
     memcpy(poles->dy + n, state->a, plan_rates(plan) * sizeof(double));
     const struct direction motion = {1, poles->dy}, flow = direction_extend(state->model, &at, &motion);
-    divisors_at(plan, &at, &flow, poles->start, poles->rate);
+    divisors_at(state->model, &at, &flow, poles->start, poles->rate);
     for (size_t i = 0; i < plan->pole_count; i++) {
         double change;
         formula_along(&plan->poles[i].formula, &at, &flow, &change);
@@ -106,12 +113,11 @@ bool poles_passed(struct poles *poles, const struct fbd_state *during, double h,
                   const double *f)
 {
     const double too_deep = 0.2;
-    const struct plan *plan = &during->model->plan;
     if (poles->count == 0) return false;
     struct instant end = state_instant_at(during, t, y);
     struct instant at = instant_extend(during->model, &end);
     const struct direction motion = {1, f}, flow = direction_extend(during->model, &at, &motion);
-    divisors_at(plan, &at, &flow, poles->end, poles->end_rate);
+    divisors_at(during->model, &at, &flow, poles->end, poles->end_rate);
     for (size_t i = 0; i < poles->count; i++) {
         double a = poles->start[i], b = poles->end[i], side = a < 0 ? -1 : 1;
         bool zero = fabs(a) <= negligible * poles->most[i] && !poles->grows[i];

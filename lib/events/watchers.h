@@ -129,6 +129,9 @@ void watchers_hold(struct watchers *watchers, const struct fbd_state *state);
  * step, of the length `step` [s], 0 at the start. */
 void watchers_arm(struct watchers *watchers, struct fbd_state *state, double step);
 
+/* The rate along the motion of the difference of a user event, in the modes of `state`. */
+double watch_rate(const struct watch *watch, struct fbd_state *state);
+
 /* A user event has occurred within a step: arm it on the other side. */
 void watchers_turn(struct watchers *watchers, int watch);
 

@@ -394,7 +394,7 @@ void watchers_evaluate_timed(const struct watchers *watchers, struct fbd_state *
     }
 }
 
-static double user_rate(const struct watch *watch, struct fbd_state *state)
+double watch_rate(const struct watch *watch, struct fbd_state *state)
 {
     struct view view = {.state = state, .at = state_instant(state)};
     double rate;
@@ -431,7 +431,7 @@ void watchers_arm(struct watchers *watchers, struct fbd_state *state, double ste
         double width = watchers->width * watchers->most[i];
         watchers->band[i] = size <= width ? width : 0;
         if (watchers->armed[i] != 0) continue;
-        double side = value != 0 ? value : user_rate(watch, state);
+        double side = value != 0 ? value : watch_rate(watch, state);
         watchers->armed[i] = side > 0 ? 1 : side < 0 ? -1 : 0;
     }
 }

@@ -186,6 +186,20 @@ static bool options_fit(const fbd_fmu_options *options, fbd_errors *errors)
     return true;
 }
 
+/* An FMU has no callbacks: inputs by them have no value. */
+static bool has_values(const fbd_model *model, fbd_errors *errors)
+{
+    for (size_t i = 0; i < fbd_model_parameter_count(model); i++) {
+        if (!isnan(fbd_model_parameter(model, i).value)) continue;
+        diag_add(errors, FBD_ERROR, "bad-option", (struct pos){0, 0},
+                 "export the model without callbacks: the input is one of the FMU then",
+                 "the input `%s` is computed by a callback, which an FMU cannot call",
+                 fbd_model_parameter(model, i).name);
+        return false;
+    }
+    return true;
+}
+
 /* Complete the options as a run from the start does, which also checks the start. Returns false with the notes of
  * that run. */
 static bool complete(const fbd_model *model, fbd_options *run, fbd_errors *errors)
@@ -225,7 +239,9 @@ static bool list_variables(struct package *package, fbd_errors *errors)
 static char *make(struct package *package, size_t *length, fbd_errors *errors)
 {
     fbd_options run = *package->options->run;
-    if (!options_fit(package->options, errors) || !complete(package->model, &run, errors)) return NULL;
+    if (!options_fit(package->options, errors) || !has_values(package->model, errors) ||
+        !complete(package->model, &run, errors))
+        return NULL;
     size_t source_length;
     const char *source = fbd_model_source(package->model, &source_length);
     package->until = run.until;

@@ -487,8 +487,11 @@ void run_apply(struct run *run, const bool *timed, const bool *moving)
 
 void run_apply_endings(struct run *run)
 {
+    if (!run->kept_modes) return;
+    state_copy(run->kept_modes, run->during);
     while (run_change_lifetimes(run)) { /* each begins and ends once */
         state_copy(run->during, run->state);
         apply_once(run, NULL, NULL);
     }
+    state_copy(run->during, run->kept_modes);
 }

@@ -197,6 +197,8 @@ bool exchange_complete(struct exchange *exchange)
     if (run->end.outcome != FBD_GOING) return false;
     run_check_jam(run, false);
     run_check_sides(run);
+    run_check_lifetimes(run);
+    if (run->end.outcome != FBD_GOING) return false;
     watchers_arm(&run->watchers, run->state, h);
     run->stale = true;
     begin(run);

@@ -22,6 +22,8 @@
 #include "dynamics/friction.h"
 #include "dynamics/impulse.h"
 #include "dynamics/project.h"
+#include "dynamics/reactions.h"
+#include "dynamics/world_refs.h"
 #include "loop/run.h"
 #include "numeric/tolerances.h"
 
@@ -233,11 +235,13 @@ void run_change_lifetime(struct run *run, int watch)
         end_coupling(run, watch);
 }
 
+/* Exactly at its limit a condition is true from now on if its rate leads beyond it. */
 static bool is_due(const struct run *run, const struct watch *watch, const struct instant *at)
 {
     if (!watch_of_lifetime(watch->source) || !is_to_come(run, watch->source)) return false;
     const double value = formula_value(&watch->left, at) - formula_value(&watch->right, at);
-    return watch->source->direction * value > 0 && run->end.outcome == FBD_GOING;
+    const double side = value != 0 ? value : watch_rate(watch, run->state);
+    return watch->source->direction * side > 0 && run->end.outcome == FBD_GOING;
 }
 
 bool run_change_lifetimes(struct run *run)
@@ -252,4 +256,24 @@ bool run_change_lifetimes(struct run *run)
     const bool any = run->ended && run->end.outcome == FBD_GOING;
     run->ended = false;
     return any;
+}
+
+void run_check_lifetimes(struct run *run)
+{
+    const struct plan *plan = &run->model->plan;
+    if (plan->watch_count == 0) return;
+    if (run->model->names_reactions) reactions_copy(run->model, run->state->y, run->state->extended);
+    const struct instant now = state_instant(run->state), at = instant_extend(run->model, &now);
+    for (size_t i = 0; i < plan->watch_count; i++) {
+        const struct watch *watch = &plan->watches[i];
+        if (run->watchers.armed[i] != 0 || !is_due(run, watch, &at)) continue;
+        run_fail(
+            run, FBD_BROKEN,
+            "before t = %.9g the condition `%s` of `%s` has become true, from exactly its limit without a "
+            "rate: its instant is not found. Give it another limit, or the condition that sets the scene in "
+            "motion",
+            run_time(run), watch->source->text,
+            watch->coupling < 0 ? run->model->loads[watch->load].source->name
+                                : run->model->tree->couplings[watch->coupling].name);
+    }
 }

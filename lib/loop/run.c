@@ -84,6 +84,8 @@ static bool make_run(struct run *run, const struct state_start *begin)
     size_t size = plan_size(plan);
     run->state = state_make(run->model, begin, memory);
     run->during = state_make(run->model, NULL, memory);
+    if (run->model->scene->lifetime_count > 0 && !(run->kept_modes = state_make(run->model, NULL, memory)))
+        return false;
     run->work.y = ARENA_ARRAY(memory, 5 * size + roundoff_size(run->model), double);
     if (!run->state || !run->during || !run->work.y || !run_make_scans(run)) return false;
     run->state->tree->accuracy = run->during->tree->accuracy = projected_accuracy(&run->options);
@@ -184,8 +186,8 @@ static void start(struct run *run)
     }
     run_check_counts(run);
     run_apply_endings(run);
-    /* Potentials are those of the forces that are there after it. */
-    memset(run->impact_work, 0, run->model->coupled_count * sizeof *run->impact_work);
+    /* Energies are those after it. */
+    memset(run->impact_work, 0, run->model->load_count * sizeof *run->impact_work);
     energy_guard_begin(run);
     projection_begin(run);
     watchers_arm(&run->watchers, run->state, 0);
@@ -218,6 +220,7 @@ void run_free(struct run *run)
     state_free(run->contacts.trial);
     state_free(run->state);
     state_free(run->during);
+    state_free(run->kept_modes);
     rates_free(run->rates);
     free(run->log.events);
 }
@@ -463,6 +466,7 @@ static void end_step(struct run *run, const struct turn *turn)
         run_apply_touched(run, false);
     }
     if (turn->moving || turn->timed || at_end) run_check_balance(run);
+    run_check_lifetimes(run);
     if (run->end.outcome == FBD_GOING && at_end) run->end.outcome = FBD_DONE;
     if (run->end.outcome == FBD_GOING && !run->plain)
         watchers_arm(&run->watchers, run->state, run->state->t - run->step.from);

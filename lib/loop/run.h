@@ -159,10 +159,11 @@ struct run {
     struct arena *memory; /* of all runs of an ensemble: for data from the start to the end of the run */
     const struct fbd_model *model;
     struct run_options options;
-    enum structure kind;      /* in use: general unless options.structure and options.automatic */
-    bool flies;               /* of structure_flights, in a mode without closed contacts */
-    struct fbd_state *state;  /* at the end of the last step, with the modes of the next one */
-    struct fbd_state *during; /* modes of the last step; its scratch is used for samples within it */
+    enum structure kind;          /* in use: general unless options.structure and options.automatic */
+    bool flies;                   /* of structure_flights, in a mode without closed contacts */
+    struct fbd_state *state;      /* at the end of the last step, with the modes of the next one */
+    struct fbd_state *during;     /* modes of the last step; its scratch is used for samples within it */
+    struct fbd_state *kept_modes; /* those modes, while forces and couplings begin and end; NULL if none do */
     struct stride step;
     struct progress progress;
     struct ending end;
@@ -321,13 +322,17 @@ void step_past_switch(struct run *run);
  * for none. Settles the modes. */
 void run_apply(struct run *run, const bool *timed, const bool *moving);
 
-/* Let forces and couplings begin and end whose conditions are true at run->state, and settle the modes. `during` is free. */
+/* Let forces and couplings begin and end whose conditions are true at run->state, and settle the modes. */
 void run_apply_endings(struct run *run);
 
 /* Let the force or coupling of a watch begin or end; no effect if it has already. The modes are to be settled
  * (run->ended). The same for all watches whose conditions are true: whether the modes are to be settled (lifetime_events.c). */
 void run_change_lifetime(struct run *run, int watch);
 bool run_change_lifetimes(struct run *run);
+
+/* At the end of a step, before watchers_arm: end the run where a condition that was exactly at its limit, and that no
+ * watcher followed, has become true. */
+void run_check_lifetimes(struct run *run);
 
 /* Is it the begin or the end of a force or coupling? */
 static inline bool watch_of_lifetime(const struct user_event *event)

@@ -340,6 +340,27 @@ static void wrong_names_are_refused(void **unused)
     fbd_errors_free(errors);
 }
 
+/* An FMU would have the value of the file, which it is not. */
+static void an_fmu_is_refused(void **unused)
+{
+    (void)unused;
+    size_t length;
+    fbd_errors *errors = fbd_errors_new();
+    fbd_model *plain = model_of(POLE, "M"), *model = called(POLE, "M", no_force, NULL);
+    const fbd_callback held = {"M", NULL, NULL};
+    fbd_model *set = fbd_model_with_callbacks(plain, &held, 1, errors);
+    const fbd_fmu_options options = {.library = "binary", .library_length = 6};
+    assert_null(fbd_fmu(model, &options, &length, errors));
+    assert_non_null(strstr(fbd_errors_get(errors, 0).message, "the input `M` is computed by a callback"));
+    char *bytes = fbd_fmu(set, &options, &length, errors);
+    assert_non_null(bytes);
+    fbd_free(bytes);
+    fbd_model_free(set);
+    fbd_model_free(model);
+    fbd_model_free(plain);
+    fbd_errors_free(errors);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -351,6 +372,7 @@ int main(void)
         cmocka_unit_test(a_closed_form_is_that_of_constants),
         cmocka_unit_test(a_callback_that_fails_ends_the_run),
         cmocka_unit_test(wrong_names_are_refused),
+        cmocka_unit_test(an_fmu_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

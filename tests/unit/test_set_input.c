@@ -107,6 +107,26 @@ static void a_motor_is_switched(void **unused)
     fbd_model_free(model);
 }
 
+/* At the end of the run, and a rounding before it, the speed remains. */
+static void an_input_is_set_at_the_end(void **unused)
+{
+    (void)unused;
+    const double ends[] = {3, nextafter(3, 0)};
+    fbd_model *model = settable(WHEEL, "M", NULL);
+    fbd_state *state = fbd_state_new(model);
+    for (int k = 0; k < 2; k++) {
+        fbd_simulation *simulation = begun(model);
+        set(simulation, 0, "M", 2);
+        near(at(simulation, state, ends[k], "wheel.omega"), 24, close_to);
+        set(simulation, ends[k], "M", 1);
+        near(at(simulation, state, ends[k], "wheel.omega"), 24, close_to);
+        near(at(simulation, state, ends[k], "wheel.theta"), 36, close_to);
+        fbd_simulation_free(simulation);
+    }
+    fbd_state_free(state);
+    fbd_model_free(model);
+}
+
 /* x'' = F/m - (k/m) x, with k/m = 25/s^2: x and v after h. */
 static void swing(double *x, double *v, double F, double h)
 {
@@ -288,6 +308,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_motor_is_switched),
+        cmocka_unit_test(an_input_is_set_at_the_end),
         cmocka_unit_test(forces_of_two_inputs_are_switched),
         cmocka_unit_test(events_after_the_change_are_forgotten),
         cmocka_unit_test(a_block_breaks_away_and_stops),
