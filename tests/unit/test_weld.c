@@ -310,7 +310,7 @@ static void write_arm(const struct arm *arm, char *text, size_t room)
                         0.5 * arm->length, arm->theta[1] - arm->theta[0], arm->omega[1] - arm->omega[0]);
     used += write_body(&b[2], "plate", text + used, room - (size_t)used);
     snprintf(text + used, room - (size_t)used,
-             "couplings:\n  - weld: {name: w, between: [%s], from: t > -1}\nsimulate: {until: 1e-12}\n",
+             "couplings:\n  - weld: {name: w, between: [%s], from: t > 1e-13}\nsimulate: {until: 1e-12}\n",
              arm->length < 1 ? "plate, lower" : "lower, plate");
 }
 
