@@ -21,7 +21,8 @@ bool tree_is_bare(const struct fbd_model *model)
 {
     const struct tree *tree = model->tree;
     if (!tree_joins(tree) || tree->loaded || tree->ends) return false;
-    if (model->names_places && tree->joined < tree->count) return false; /* forces on the others read the places */
+    /* Forces on the others read its places. */
+    if (model->names_places && tree->joined < tree->count) return false;
     if (tree->coupling_count + tree->joined_watched + tree->massless_count > 0) return false;
     if (tree->joined_loads.of[list_potentials].count > 0) return false;
     return tree_is_in_chains(tree);
