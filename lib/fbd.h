@@ -3,8 +3,8 @@
  * fbd: free-body diagrams that run. This header has models, states, equations and runs; fbd_study.h the accuracy of runs and
  * studies of a model, fbd_find.h values of its parameters, fbd_section.h forces inside of bodies, fbd_grade.h derivations and
  * answers, fbd_export.h outputs, fbd_geometry.h bodies, shapes and positions, fbd_view.h all other contents of a model for
- * other programs: drawings, graders, formats;
- * fbd_linear.h linear systems with inputs, fbd_exchange.h integration by other programs, fbd_workers.h sweeps over several processes, fbd_test.h checks for unit tests.
+ * other programs: drawings, graders, formats; fbd_linear.h linear systems with inputs, fbd_exchange.h integration by other
+ * programs, fbd_workers.h sweeps over several processes, fbd_test.h checks for unit tests.
  *
  * Units are those of the model's system (`units: SI` or `US`), angles are in radians, times in seconds. A
  * unit returned with a name is the unit of that quantity.

@@ -194,9 +194,8 @@ FBD_API char *fbd_model_without(const fbd_model *model, const char *const *effec
 typedef struct fbd_pull {
     size_t size; /* sizeof(fbd_pull), or 0 */
     const char *body;
-    double at[2]; /* the grabbed point, in the frame of the body */
-    double
-        stiffness; /* in the model's units of force by length; the damping is half of critical for the body's mass */
+    double at[2];       /* the grabbed point, in the frame of the body */
+    double stiffness;   /* in the model's units; the damping is half of critical for the body's mass */
     double from, to;    /* s */
     const double *path; /* count times t, x, y of the pointer in the world, between which it moves evenly */
     size_t count;
@@ -240,11 +239,10 @@ FBD_API char *fbd_result_live_html(fbd_result *result, const fbd_live_options *o
 
 /* A model as a Functional Mock-up Unit (fmi-standard.org): docs/fmi.md. */
 typedef struct fbd_fmu_options {
-    size_t size; /* sizeof(fbd_fmu_options), or 0 */
-    int version; /* of FMI: 3, or 2 for tools that do not support 3; 0 is 3 */
-    const char
-        *library; /* the binary to include, of this version of fbd, or its gzip, contained in fbd-run ... */
-    size_t library_length;       /* ... and its length in bytes */
+    size_t size;                 /* sizeof(fbd_fmu_options), or 0 */
+    int version;                 /* of FMI: 3, or 2 for tools that do not support 3; 0 is 3 */
+    const char *library;         /* the binary to include, of this version of fbd, or its gzip ... */
+    size_t library_length;       /* ... and its length in bytes; fbd-run contains it */
     const char *name;            /* of the FMU; NULL for that of the model file */
     const fbd_setting *settings; /* those that the model was read with: they become its start values */
     size_t setting_count;
@@ -254,10 +252,10 @@ typedef struct fbd_fmu_options {
     const char *outputs;
 } fbd_fmu_options;
 
-/* The FMU for co-simulation, and for model exchange where that can be had (fbd_model_exchanges), with that binary, as bytes of a zip archive, to be freed with fbd_free; *length
- * is their number. NULL with notes in `errors`: those of wrong options (see fbd_simulation_new), also for an input that a
- * callback computes, of an inadmissible start (see fbd_state_close), `cannot-read` for the data file of a table, `bad-call`, or memory
- * is out. */
+/* The FMU for co-simulation, and for model exchange where that can be had (fbd_model_exchanges), with that binary, as
+ * bytes of a zip archive, to be freed with fbd_free; *length is their number. NULL with notes in `errors`: those of wrong
+ * options (see fbd_simulation_new), also for an input that a callback computes, of an inadmissible start (see
+ * fbd_state_close), `cannot-read` for the data file of a table, `bad-call`, or memory is out. */
 FBD_API char *fbd_fmu(const fbd_model *model, const fbd_fmu_options *options, size_t *length,
                       fbd_errors *errors);
 
