@@ -323,7 +323,7 @@ static void apply_all(struct exchange *exchange)
     project(run);
     if (run->end.outcome != FBD_GOING) return;
     apply_timed(exchange);
-    if (run->end.outcome == FBD_GOING) apply_moving(exchange);
+    apply_moving(exchange); /* unless the run has ended */
 }
 
 /* Find the next zero of a function of time alone, within the length of the run from here; without one the search goes on
