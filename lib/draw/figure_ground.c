@@ -197,6 +197,17 @@ static void draw_edge(struct figure *figure, const struct edge *edge, struct spa
                        panel_direction(vec_scale(-1, edge->out)));
 }
 
+/* An underside of the ground: it faces down, and no body is in front of it. */
+static bool is_underside(const struct figure *figure, const struct edge *edge)
+{
+    bool before_one = false;
+    for (size_t i = 0; i < figure->count; i++) {
+        const struct vec G = panel_place(&figure->panels[i], figure->panels[i].G);
+        before_one |= vec_dot(edge->out, vec_sub(G, edge->from)) > 0;
+    }
+    return edge->out.y < 0 && !before_one;
+}
+
 /* Draw the polygon of a contact within a square around the bodies. */
 static void draw_polygon(struct figure *figure, size_t connection)
 {
@@ -212,7 +223,7 @@ static void draw_polygon(struct figure *figure, size_t connection)
     for (size_t i = 0; i < count; i++) {
         const struct vec from = corners[i], to = corners[(i + 1) % count], d = vec_sub(to, from);
         const struct edge edge = {from, to, vec_scale(-1 / vec_norm(d), vec_perp(d))};
-        draw_edge(figure, &edge, inside_of(window, 4, from, to), 0);
+        if (!is_underside(figure, &edge)) draw_edge(figure, &edge, inside_of(window, 4, from, to), 0);
     }
 }
 
