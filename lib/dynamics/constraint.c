@@ -7,13 +7,12 @@
 
 bool port_turns(const struct port *port)
 {
-    const double roundings = 1e-10;
     double arm = vec_norm(port->arm), force = vec_norm(port->force);
     double d_arm = vec_norm(port->d_arm), d_force = vec_norm(port->d_force);
     double moment = vec_cross(port->arm, port->force);
     double later = vec_cross(port->d_arm, port->force) + vec_cross(port->arm, port->d_force);
-    return fabs(moment) > roundings * arm * force ||
-           fabs(later) > roundings * (d_arm * force + arm * d_force);
+    return fabs(moment) > solved_rounding * arm * force ||
+           fabs(later) > solved_rounding * (d_arm * force + arm * d_force);
 }
 
 /* ---- kinds */
@@ -404,17 +403,18 @@ struct one_sided one_sided_at(const struct fbd_model *model, const struct instan
         }
     }
     length += reach;
-    state.slack = 1e-12 * size;
+    state.slack = negligible_sum * size;
     /* For a body at rest: the angular velocity of a pendulum of that length. */
     if (length > 0) state.turning = fmax(state.turning, sqrt(vec_norm(model->scene->gravity) / length));
     state.rounding = round_off(16, length);
-    state.near = 1e-9 * length;
+    state.near = undecided_part * length;
     /* If all these links are at rest: the rounding of the fastest link of the scene, to which they may be
      * coupled, and the speed of a fall from that height. */
     double fast =
         fmax(sqrt(vec_norm(model->scene->gravity) * length), fastest(model->tree, at->tree, length));
     double slow = round_off(64, fast);
-    state.touches = fabs(state.excess) <= state.near && fabs(state.rate) <= 1e-10 * state.speed + slow;
+    state.touches =
+        fabs(state.excess) <= state.near && fabs(state.rate) <= solved_rounding * state.speed + slow;
     state.parts = state.rate < -1e-6 * state.speed - slow;
     state.meets = state.rate > 1e-6 * state.speed + slow;
     return state;

@@ -5,6 +5,7 @@
 #include "dynamics/constraint_view.h"
 #include "dynamics/friction.h"
 #include "dynamics/state.h"
+#include "numeric/tolerances.h"
 
 /* ---- ropes: a straight piece from a circle (or point) to the next, see the derivation
  *
@@ -103,7 +104,7 @@ static struct jet reeled(const struct view *view, const struct coupling *couplin
 /* Is a rope slack by more than rounding? */
 static bool is_loose(double over, const struct coupling_state *state)
 {
-    const double taut = 1e-9; /* of its length */
+    const double taut = undecided_part; /* of its length */
     return over < -taut * state->zero;
 }
 
@@ -395,7 +396,6 @@ double rope_reel_rate(const struct fbd_state *state, int index)
  * the same. */
 static int side_of_wound(const struct view *view, const struct coupling *coupling, int end)
 {
-    const double little = 1e-9;
     int k = end == 0 ? 0 : coupling->end_count - 1, other = end == 0 ? 1 : k - 1;
     double R = coupling->end[k].radius;
     struct jet_vec C = point_of(view, &coupling->end[k]), P = point_of(view, &coupling->end[other]);
@@ -406,7 +406,7 @@ static int side_of_wound(const struct view *view, const struct coupling *couplin
         bool low = coupling->wound[end] == wound_left || coupling->wound[end] == wound_bottom;
         along[i] = (upright ? at.y - c.y : at.x - c.x) * (low ? -1 : 1);
     }
-    if (!(fabs(along[0] - along[1]) > little * R)) return 0;
+    if (!(fabs(along[0] - along[1]) > undecided_part * R)) return 0;
     /* As seen from the disc; a rope that ends there has the opposite sense. */
     int side = along[0] > along[1] ? 1 : -1;
     return end == 0 ? side : -side;

@@ -13,6 +13,7 @@
 
 #include "dynamics/constraint_view.h"
 #include "expr/curve.h"
+#include "numeric/tolerances.h"
 
 /* A point of the curve, with the derivatives for its jets. */
 struct foot {
@@ -60,7 +61,7 @@ static bool foot_near(const struct coupling *coupling, struct vec u, double *s)
         if (!(slope > 0.05)) return false;
         double step = vec_dot(foot.at.e, d) / slope;
         /* At rounding the steps no longer decrease. */
-        if (fabs(step) >= last && last <= 1e-12 * (fabs(*s) + vec_norm(u))) return true;
+        if (fabs(step) >= last && last <= negligible_sum * (fabs(*s) + vec_norm(u))) return true;
         *s += step;
         last = fabs(step);
         if (step == 0) return isfinite(*s);

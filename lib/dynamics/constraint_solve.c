@@ -38,6 +38,7 @@
 
 #include "dynamics/constraint.h"
 #include "dynamics/tree_unknowns.h"
+#include "numeric/tolerances.h"
 
 /* ---- L D U in the envelope: row i from column first[i], column i from row first[i]; rows and columns are
  * places in the order of elimination (model/coupling_order.c), of the active unknowns */
@@ -137,7 +138,7 @@ static void solve(struct tree_work *work, double *unknowns)
     substitute(work, z);
     for (int pass = 0; pass < corrections; pass++) {
         rest_of(work, right, z, rest);
-        if (pass >= least_corrections && largest(rest, m) <= 1e-14 * largest(right, m)) break;
+        if (pass >= least_corrections && largest(rest, m) <= evaluation_rounding * largest(right, m)) break;
         substitute(work, rest);
         for (int j = 0; j < m; j++) z[j] += rest[j];
     }

@@ -172,7 +172,7 @@ static struct gap lowest_over(const struct fbd_model *model, const struct tree_w
 /* Is the corner of a feature between the ends of its side? */
 static bool is_over(const struct fbd_model *model, const struct tree_work *work, int index, int feature)
 {
-    const double near = 1e-12 * model->tree->meetings[index].size;
+    const double near = negligible_sum * model->tree->meetings[index].size;
     struct place_on_side at = feature_foot(model, work, index, feature);
     return at.foot >= -near && at.foot <= at.length + near;
 }
@@ -267,13 +267,12 @@ static int closed_couplings(const struct fbd_model *model, const struct instant 
 
 double contact_slack(const struct fbd_model *model, int coupling)
 {
-    const double rounding = 1e-12;
     double mass = 0;
     for (int k = 0; k < 2; k++) {
         int link = model->tree->couplings[coupling].end[k].link;
         if (link > 0) mass += model->tree->links[link].mass;
     }
-    return rounding * mass * vec_norm(model->scene->gravity);
+    return negligible_sum * mass * vec_norm(model->scene->gravity);
 }
 
 bool coupling_is_closed(const struct fbd_model *model, const struct instant *at, int coupling)
@@ -357,12 +356,11 @@ static void consider(struct outermost *found, int feature, double foot)
 static bool is_on_side(const struct fbd_model *model, const struct tree_work *work, int index,
                        const struct place_on_side *at, double near)
 {
-    const double share = 1e-10;
     const struct meeting *meeting = &model->tree->meetings[index];
     double speed = meeting_speed(work, meeting);
     if (at->foot < -near || at->foot > at->length + near) return false;
-    if (at->foot <= near && at->rate < -share * speed) return false;
-    return !(at->foot >= at->length - near && at->rate > share * speed);
+    if (at->foot <= near && at->rate < -solved_rounding * speed) return false;
+    return !(at->foot >= at->length - near && at->rate > solved_rounding * speed);
 }
 
 /* Corners of shape `moving` that lie on a side of the other. */

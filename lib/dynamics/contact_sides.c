@@ -7,6 +7,7 @@
 #include "dynamics/constraint.h"
 #include "dynamics/contact_thin.h"
 #include "dynamics/state.h"
+#include "numeric/tolerances.h"
 
 /* The shape that lies on the other: a freely moving body on a body with a slide or pivot, and that on the
  * ground; of equals the point on the bar, and the first of `between` on the second. */
@@ -37,7 +38,6 @@ static struct vec acceleration_of(const struct tree_work *work, int link, struct
 static int sense_of_upper(const struct fbd_model *model, const struct tree_work *work,
                           const struct meeting *meeting, struct vec place, struct vec n)
 {
-    const double nothing = 1e-9;
     int upper = upper_of(model, meeting);
     double a[2], most = 0;
     for (int k = 0; k < 2; k++) {
@@ -45,8 +45,8 @@ static int sense_of_upper(const struct fbd_model *model, const struct tree_work 
         a[k] = vec_dot(n, A);
         most = fmax(most, vec_norm(A));
     }
-    if (fabs(a[upper]) > nothing * most) return a[upper] < 0 ? 1 : -1;
-    if (fabs(a[1 - upper]) > nothing * most) return a[1 - upper] > 0 ? 1 : -1;
+    if (fabs(a[upper]) > undecided_part * most) return a[upper] < 0 ? 1 : -1;
+    if (fabs(a[1 - upper]) > undecided_part * most) return a[1 - upper] > 0 ? 1 : -1;
     return 0;
 }
 
@@ -87,11 +87,10 @@ static double side_by_place(const struct fbd_model *model, const struct tree_wor
 static double side_by_motion(const struct fbd_model *model, const struct tree_work *work, int index,
                              int probe)
 {
-    const double rounding = 1e-10;
     const struct meeting *meeting = &model->tree->meetings[index];
     int feature = thin_feature(thin_corner_of(meeting, probe), thin_left);
     double rate = feature_gap(model, work, index, feature).rate;
-    return fabs(rate) > rounding * meeting_speed(work, meeting) ? rate : 0;
+    return fabs(rate) > solved_rounding * meeting_speed(work, meeting) ? rate : 0;
 }
 
 /* Positive on the left, negative on the right; 0 if only forces decide. */

@@ -9,6 +9,7 @@
 #include "dynamics/contact.h"
 #include "dynamics/contact_thin.h"
 #include "dynamics/project.h"
+#include "numeric/tolerances.h"
 
 static struct vec in_world(const struct tree_work *work, int link, struct vec own)
 {
@@ -49,9 +50,9 @@ static void choose_side(const struct fbd_model *model, struct tree_work *work, i
 /* Is the feature at rest, within the rounding of speeds? */
 static bool rests(const struct fbd_model *model, const struct tree_work *work, int index, int feature)
 {
-    const double share = 1e-10;
     const struct meeting *meeting = &model->tree->meetings[index];
-    return fabs(feature_gap(model, work, index, feature).rate) <= share * meeting_speed(work, meeting);
+    return fabs(feature_gap(model, work, index, feature).rate) <=
+           solved_rounding * meeting_speed(work, meeting);
 }
 
 static void open_meeting(struct fbd_state *state, int index)

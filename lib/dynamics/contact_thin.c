@@ -2,6 +2,7 @@
 #include "dynamics/contact_thin.h"
 
 #include "dynamics/constraint.h"
+#include "numeric/tolerances.h"
 
 static const struct meeting *meeting_of(const struct fbd_model *model, int index)
 {
@@ -107,9 +108,8 @@ static bool meets_end_face(const struct fbd_model *model, const struct tree_work
 static struct gap touching_at(const struct fbd_model *model, const struct tree_work *work, int index,
                               int probe, double near)
 {
-    const double share = 1e-10;
     const struct gap none = {HUGE_VAL, 0, no_feature};
-    double speed = share * meeting_speed(work, meeting_of(model, index));
+    double speed = solved_rounding * meeting_speed(work, meeting_of(model, index));
     struct gap side = gap_at_side(model, work, index, probe), ends = gap_at_ends(model, work, index, probe);
     if (fabs(side.x) > near || ends.x > near) return none;
     if (meets_end_face(model, work, index, probe, near)) return ends;

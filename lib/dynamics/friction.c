@@ -75,7 +75,7 @@ bool friction_is_idle(const struct fbd_model *model, int pair, const struct inst
 
 double friction_below_zero(const struct fbd_model *model, int pair, const struct instant *at)
 {
-    const double rounding = 1e-12; /* of coefficients of 1, or of a bearing's limit of 1 N m */
+    const double rounding = negligible_sum; /* of coefficients of 1, or of a bearing's limit of 1 N m */
     const struct mode *mode = &model->plan.modes[pair];
     if (!mode_is_friction(mode) || !(mode->mu_s.expr || mode->mu_k.expr)) return 0;
     double least = fmin(friction_coefficient(model, pair, &mode->mu_s, at, NULL, NULL),

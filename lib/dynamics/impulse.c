@@ -6,6 +6,7 @@
 #include "dynamics/friction.h"
 #include "dynamics/tree.h"
 #include "dynamics/tree_system.h"
+#include "numeric/tolerances.h"
 
 void impulse_look(struct fbd_state *state)
 {
@@ -109,8 +110,7 @@ void impulse_answers(struct fbd_state *state, const struct impulse_lines *lines,
     const struct fbd_model *model = state->model;
     struct tree_work *work = state->tree;
     size_t n = (size_t)model->plan.n, count = (size_t)lines->row_count + (size_t)lines->slide_count;
-    const double exact = 1e-13; /* slopes that are damped out; see project.c */
-    const double immovable = 1e-12;
+    const double exact = negligible_part; /* slopes that are damped out; see project.c */
     struct instant at = state_instant(state);
     factor_tree(state);
     memcpy(modes, state->slip, model->plan.mode_count * sizeof *modes);
@@ -128,7 +128,7 @@ void impulse_answers(struct fbd_state *state, const struct impulse_lines *lines,
         double *own = &W[j * count + j], alone = *own;
         tree_system_solve(model, &at, work->z);
         add_column(state, lines, (int)j, work->z, W, B, answers + j * n);
-        if ((int)j >= lines->row_count && *own <= immovable * alone) *own = 0;
+        if ((int)j >= lines->row_count && *own <= negligible_sum * alone) *own = 0;
     }
     work->projecting = false;
     for (int i = 1; i < model->tree->count; i++) work->links[i].locked = false;
@@ -137,7 +137,7 @@ void impulse_answers(struct fbd_state *state, const struct impulse_lines *lines,
 static bool is_loaded(const struct impulse_lines *lines, const double *W, const double *B, int i,
                       const int *loaded)
 {
-    const double rounding = 1e-12; /* of a unit impulse */
+    const double rounding = negligible_sum; /* of a unit impulse */
     const int rows = lines->row_count, all = rows + lines->slide_count;
     if (W[(ptrdiff_t)(rows + i) * (all + 1)] <= 0) return false;
     for (int j = 0; j < all; j++)

@@ -27,6 +27,7 @@
 #include "dynamics/journals.h"
 #include "dynamics/plane_friction.h"
 #include "dynamics/world_refs.h"
+#include "numeric/tolerances.h"
 
 /* Give friction that begins to slip at its limit a small acceleration in the slip direction. Its relative
  * acceleration is still rounding, which would choose the branches of expressions in its speed at random. */
@@ -251,7 +252,7 @@ static double largest_force(const struct fbd_state *state)
  * motion then; the state says so. */
 static void release_idle_ropes(struct fbd_state *state)
 {
-    const double rounding = 1e-12; /* of the forces */
+    const double rounding = negligible_sum; /* of the forces */
     const struct plan *plan = &state->model->plan;
     const struct tree *tree = state->model->tree;
     state_evaluate(state);

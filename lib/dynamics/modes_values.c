@@ -56,5 +56,5 @@ double press_slack(const struct fbd_model *model, const struct tree_work *tree, 
         size = fmax(size, vec_norm(tree->links[i].F.force));
         size = fmax(size, vec_norm(model->tree->links[i].force));
     }
-    return 1e-13 * size;
+    return negligible_part * size;
 }

@@ -3,6 +3,7 @@
 
 #include "dynamics/friction.h"
 #include "dynamics/tree_system.h"
+#include "numeric/tolerances.h"
 
 /* ---- rows */
 
@@ -58,7 +59,7 @@ static struct slip_of_point slip_now(const struct coupling *coupling, const stru
 
 void plane_follow(const struct view *view, const struct coupling *coupling, struct coupling_state *state)
 {
-    const double rounding = 1e-10; /* it sticks */
+    const double rounding = solved_rounding; /* it sticks */
     const struct slip_of_point now = slip_now(coupling, view->work->links);
     const double speed = vec_norm(now.u);
     if (speed > rounding * now.size) state->e = vec_scale(1 / speed, now.u);

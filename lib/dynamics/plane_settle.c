@@ -7,6 +7,7 @@
 #include "dynamics/plane_friction.h"
 #include "dynamics/state.h"
 #include "dynamics/tree_system.h"
+#include "numeric/tolerances.h"
 
 /* The points at rest relative to their planes, without their forces. */
 struct at_rest {
@@ -42,13 +43,12 @@ static bool moves(const struct fbd_state *state, const struct decided *decided, 
 /* Let it slip in the direction of its velocity; true when its force stays as it is. */
 static bool follow(struct fbd_state *state, int pair)
 {
-    const double rounding = 1e-12;
     const int index = mode_of(state, pair)->coupling;
     const struct vec before = state->tree->couplings[index].e;
     const bool same = state->slip[pair] == slip_plus;
     state->slip[pair] = slip_plus;
     plane_aim(state->model, state->tree, index);
-    return same && vec_norm(vec_sub(before, state->tree->couplings[index].e)) <= rounding;
+    return same && vec_norm(vec_sub(before, state->tree->couplings[index].e)) <= negligible_sum;
 }
 
 static bool make_room(struct at_rest *rest, struct arena *arena)
@@ -124,7 +124,7 @@ static struct disc disc_of(const struct at_rest *rest, int i)
 /* -(A + s 1)^-1 b in the principal axes; a direction in which nothing yields has no force. */
 static struct vec force_at(const struct disc *disc, struct vec b, double s)
 {
-    const double immovable = 1e-12, least = immovable * disc->a[0];
+    const double immovable = negligible_sum, least = immovable * disc->a[0];
     return (struct vec){disc->a[0] + s > 0 ? -b.x / (disc->a[0] + s) : 0,
                         disc->a[1] + s > least ? -b.y / (disc->a[1] + s) : 0};
 }
@@ -134,11 +134,10 @@ static struct vec force_at(const struct disc *disc, struct vec b, double s)
 static struct vec disc_force(const struct disc *disc, struct vec b, bool *slips)
 {
     enum { most_steps = 60 };
-    const double rounding = 1e-12;
     const struct vec own = {vec_dot(disc->axis, b), vec_cross(disc->axis, b)};
     struct vec f = force_at(disc, own, 0);
     double s = 0;
-    *slips = vec_norm(f) > (1 + rounding) * disc->c || disc->c == 0;
+    *slips = vec_norm(f) > (1 + negligible_sum) * disc->c || disc->c == 0;
     if (disc->c == 0) return (struct vec){0, 0};
     for (int step = 0; *slips && step < most_steps; step++) {
         const double size = vec_norm(f);
@@ -146,7 +145,7 @@ static struct vec disc_force(const struct disc *disc, struct vec b, bool *slips)
         const double change = (size / disc->c - 1) / slope;
         s += change;
         f = force_at(disc, own, s);
-        if (!(change > rounding * s)) break;
+        if (!(change > negligible_sum * s)) break;
     }
     if (*slips) f = vec_scale(disc->c / vec_norm(f), f);
     return vec_turn(disc->axis, f);
@@ -168,9 +167,8 @@ static struct vec by_others(const struct at_rest *rest, int i)
 static void relax(struct at_rest *rest)
 {
     enum { most_sweeps = 20000 };
-    const double rounding = 1e-14;
     double change = 1;
-    for (int sweep = 0; sweep < most_sweeps && change > rounding; sweep++) {
+    for (int sweep = 0; sweep < most_sweeps && change > evaluation_rounding; sweep++) {
         change = 0;
         for (int i = 0; i < rest->count; i++) {
             const struct disc disc = disc_of(rest, i);

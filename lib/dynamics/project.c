@@ -340,7 +340,7 @@ bool state_project_velocity(struct fbd_state *state, bool assemble)
         place.at.tree->settling_down = false;
         prepare(&place);
     }
-    bool there = misfit_of(&place).velocity <= 1e-9 * fmax(speed, speed_of(&place));
+    bool there = misfit_of(&place).velocity <= undecided_part * fmax(speed, speed_of(&place));
     release(&place);
     return there;
 }

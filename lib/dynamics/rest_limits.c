@@ -9,6 +9,7 @@
 #include "dynamics/friction.h"
 #include "dynamics/rest_system.h"
 #include "numeric/least_distance.h"
+#include "numeric/tolerances.h"
 #include "numeric/vector.h"
 
 /* ---- limits */
@@ -90,7 +91,7 @@ static double bound_value(const struct rest_system *system, const struct rest_bo
 /* Rounding, and the last digits of a coefficient in a file. */
 double rest_limit_slack(const struct rest_system *system)
 {
-    return 1e-9 * system->force;
+    return undecided_part * system->force;
 }
 
 struct rest_limit rest_limit_at(const struct rest_system *system, size_t index)
@@ -173,7 +174,7 @@ static double largest(const double *row, size_t n)
 static bool programme_new(struct programme *of, const struct rest_system *system,
                           const struct rest_part *part, bool guides, const double *values)
 {
-    const double negligible = 1e-9; /* of a unit of the reactions */
+    const double negligible = undecided_part; /* of a unit of the reactions */
     struct arena *arena = system->arena;
     *of = (struct programme){.size = part->size, .bound = part->limit, .G = part->G};
     of->h = ARENA_ARRAY(arena, 2 * part->limits + 1, double);
@@ -209,11 +210,10 @@ static double rate_of_margin(const struct rest_system *system, const struct prog
                              const double *slots_along, const double *lambda_along,
                              const struct direction *flow, int *gives)
 {
-    const double share = 1e-9;
     double rate = 0;
     for (size_t k = 0; k < of->count; k++) {
         const struct rest_bound *bound = &system->bounds[of->bound[k]];
-        if (of->u[k] <= share) continue;
+        if (of->u[k] <= undecided_part) continue;
         rate += of->u[k] / bound->unit * bound_along(system, slots_along, lambda_along, bound, flow);
         if (bound->pair >= 0) gives[bound->pair] = bound->side < 0 ? slip_minus : slip_plus;
     }

@@ -41,7 +41,7 @@ const struct qr *rest_memo_qr(struct rest_memo **memo, int which, size_t rows, s
     qr_free(&part->qr);
     part->matrix = malloc(bytes + 1);
     if (part->matrix) memcpy(part->matrix, a, bytes);
-    if (part->matrix && qr_decompose(&part->qr, rows, cols, a, singular_value_zero)) return &part->qr;
+    if (part->matrix && qr_decompose(&part->qr, rows, cols, a, solved_rounding)) return &part->qr;
     free(part->matrix);
     part->matrix = NULL;
     return NULL;

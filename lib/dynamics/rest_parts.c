@@ -8,9 +8,10 @@
 #include "dynamics/rest_memo.h"
 #include "dynamics/rest_system.h"
 #include "holds/parts.h"
+#include "numeric/tolerances.h"
 
 /* The relative size below which the contribution of a null vector to a reaction or a limit is rounding. */
-static const double no_share = 1e-12;
+static const double no_share = negligible_sum;
 
 /* The rows by which null vectors interact: all reactions, then all limits. */
 struct meeting_rows {

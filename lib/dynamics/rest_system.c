@@ -9,6 +9,7 @@
 #include "dynamics/tree_system.h"
 #include "dynamics/world_refs.h"
 #include "numeric/least_distance.h"
+#include "numeric/tolerances.h"
 
 /* ---- scales with which zero is compared */
 
@@ -233,7 +234,7 @@ static bool keep_limits(struct rest_system *system)
 /* ---- solution */
 
 /* Relative tolerance for dependent columns of E. */
-static const double dependent = 1e-10;
+static const double dependent = solved_rounding;
 
 static int top_of(const int *set, int i)
 {

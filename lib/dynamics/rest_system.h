@@ -28,6 +28,7 @@
 #include "dynamics/diagram.h"
 #include "dynamics/statics.h"
 #include "numeric/qr.h"
+#include "numeric/tolerances.h"
 
 /* A limit in force, as a function h >= 0 of the forces: of a normal force, of the tension of a rope, of the loaded side of a
  * guide that slips; of friction mu N - F and mu N + F. */
@@ -155,7 +156,7 @@ struct rest_margin {
 /* The rounding of a margin: a load within this of its limits does not break away. */
 static inline double rest_margin_slack(const struct rest_margin *margin)
 {
-    return 1e-12 * margin->size;
+    return negligible_sum * margin->size;
 }
 
 /* Find the margin at the base, right after the rates of change of its slots and of the multipliers along

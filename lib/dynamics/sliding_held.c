@@ -9,6 +9,7 @@
 #include "dynamics/friction.h"
 #include "dynamics/sliding_question.h"
 #include "dynamics/world_refs.h"
+#include "numeric/tolerances.h"
 
 double asked_rate(const struct question *q, const struct asked *asked, double dt, const double *dy)
 {
@@ -167,14 +168,13 @@ static void rest_on(const struct question *q, const struct asked *asked, const s
 
 bool question_leave_repelling(struct question *q, const struct decided *decided)
 {
-    const double rounding = 1e-12;
     struct sliding *s = q->state->sliding;
     int kept = 0;
     for (int i = 0; i < q->count; i++) {
         const struct asked asked = q->list[i];
         double size;
         bool repels = s->slide_at[asked.branch] == 0 && !asked.left && !asked.ended &&
-                      asked_is_held(q, &asked) && pushed_away(q, &asked, &size) > rounding * size;
+                      asked_is_held(q, &asked) && pushed_away(q, &asked, &size) > negligible_sum * size;
         if (!repels) {
             q->list[kept++] = asked;
             continue;

@@ -14,6 +14,7 @@
 #include "dynamics/sliding_question.h"
 #include "dynamics/tree_driven.h"
 #include "dynamics/world_refs.h"
+#include "numeric/tolerances.h"
 
 /* ---- is a choice consistent? */
 
@@ -54,7 +55,6 @@ static void take_sizes(struct question *q)
 
 static bool agrees(struct question *q)
 {
-    const double rounding = 1e-10;
     struct fbd_state *state = q->state;
     struct sliding *s = state->sliding;
     size_t n = (size_t)state->model->plan.n;
@@ -69,13 +69,13 @@ static bool agrees(struct question *q)
         }
         if (slide > 0) {
             double share = s->slides[slide - 1].share;
-            if (s->failed || !(share >= -rounding && share <= 1 + rounding)) return false;
+            if (s->failed || !(share >= -solved_rounding && share <= 1 + solved_rounding)) return false;
             bool held = s->held[s->slides[slide - 1].unit] != not_held;
             if (held && asked_parted(q->state, asked) != 0) return false;
             if (!asked_is_joined(q, asked)) return false;
             continue;
         }
-        double zero = rounding * size_of_rate(q, asked), *flow = s->flow;
+        double zero = solved_rounding * size_of_rate(q, asked), *flow = s->flow;
         memcpy(flow, state->y + n, n * sizeof *flow);
         memcpy(flow + n, state->a, plan_rates(&state->model->plan) * sizeof *flow);
         double rate = asked_rate(q, asked, 1, flow);

@@ -112,7 +112,7 @@ static void factor(struct sliding *s)
         s->pivot[k] = best;
         double before = 0;
         for (int j = 0; j < m; j++) before = fmax(before, fabs(s->M[j * m + k]));
-        if (!(fabs(s->lu[best * m + k]) > 1e-12 * before)) {
+        if (!(fabs(s->lu[best * m + k]) > negligible_sum * before)) {
             s->failed = true;
             return;
         }
@@ -208,7 +208,6 @@ int sliding_parted(const struct fbd_model *model, const struct instant *given, c
                    int part)
 {
     static const double later[] = {1e-6, 1e-3, 0.1, 3.7}; /* s, incommensurate with usual periods */
-    const double rounding = 1e-9;
     struct sliding *s = given->sliding;
     size_t n = (size_t)model->plan.n, size = plan_size(&model->plan);
     for (size_t k = 0; k < sizeof later / sizeof *later; k++) {
@@ -228,7 +227,7 @@ int sliding_parted(const struct fbd_model *model, const struct instant *given, c
         for (size_t i = 0; i < n; i++) s->shifted[i] += later[k] * (given->y[n + i] + s->shifted[n + i]) / 2;
         at.y = s->shifted;
         double u = sliding_surface(s, model, &at, kink, part);
-        if (fabs(u) > rounding * speeds) return u > 0 ? 1 : -1;
+        if (fabs(u) > undecided_part * speeds) return u > 0 ? 1 : -1;
     }
     return 0;
 }
@@ -312,7 +311,7 @@ void sliding_solve(const struct fbd_model *model, const struct instant *at)
         }
         set_shares(s);
         if (!(largest > 1e-15)) return;
-        if (step > 0 && largest < 1e-14) return;
+        if (step > 0 && largest < evaluation_rounding) return;
     }
 }
 
@@ -410,7 +409,6 @@ void sliding_solve_along(const struct fbd_model *model, const struct instant *gi
 /* Remove the velocities across the surfaces. A remainder within rounding is set to zero. */
 static void project_velocities(struct fbd_state *state, bool settling)
 {
-    const double rounding = 1e-14;
     struct sliding *s = state->sliding;
     const struct instant at = state_instant(state);
     size_t n = (size_t)state->model->plan.n;
@@ -419,7 +417,7 @@ static void project_velocities(struct fbd_state *state, bool settling)
         if (settling && sliding_rest(s, state->model, &at, (int)i) >= 0) continue;
         double before = v[i];
         for (int unit = 0; unit < s->units; unit++) v[i] -= s->B[(size_t)unit * n + i] * s->c[unit];
-        if (fabs(v[i]) <= rounding * fabs(before)) v[i] = 0;
+        if (fabs(v[i]) <= evaluation_rounding * fabs(before)) v[i] = 0;
     }
 }
 

@@ -10,12 +10,12 @@
 #include "dynamics/project.h"
 #include "dynamics/sliding_question.h"
 #include "dynamics/world_refs.h"
+#include "numeric/tolerances.h"
 
 /* ---- surfaces */
 
 double asked_passing_speed(const struct question *q, const struct asked *asked)
 {
-    const double rounding = 1e-10;
     const struct fbd_state *state = q->state;
     const struct kink *kink = &state->model->plan.kinks[asked->kink];
     const struct instant at = state_instant(state);
@@ -23,7 +23,7 @@ double asked_passing_speed(const struct question *q, const struct asked *asked)
     double size = 0, w = sliding_surface(state->sliding, state->model, &at, kink, asked->part);
     size_t n = (size_t)state->model->plan.n;
     for (size_t i = 0; i < n; i++) size += fabs(asked_slope(q, asked, 1 + n + i) * state->y[n + i]);
-    return fabs(w) > rounding * size ? w : 0;
+    return fabs(w) > solved_rounding * size ? w : 0;
 }
 
 /* ---- the list */
@@ -101,7 +101,6 @@ static double slope_of(const struct question *q, const struct asked *asked, size
 /* The ratio of the speeds of j and i if couplings make them proportional, else 0. */
 static double coupled_ratio(const struct question *q, int i, int j)
 {
-    const double rounding = 1e-10;
     int n = q->state->model->plan.n;
     double ii = 0, jj = 0, ij = 0;
     for (int k = 0; k < n; k++) {
@@ -110,8 +109,8 @@ static double coupled_ratio(const struct question *q, int i, int j)
         jj += y * y;
         ij += x * y;
     }
-    bool moves = ii > rounding * rounding && jj > rounding * rounding;
-    return moves && ij * ij >= (1 - rounding) * ii * jj ? ij / ii : 0;
+    bool moves = ii > solved_rounding * solved_rounding && jj > solved_rounding * solved_rounding;
+    return moves && ij * ij >= (1 - solved_rounding) * ii * jj ? ij / ii : 0;
 }
 
 bool question_find_coordinates(struct question *q)
@@ -137,7 +136,6 @@ bool question_find_coordinates(struct question *q)
  * if couplings prevent all motion of a. */
 static double ratio_of(const struct question *q, const struct asked *a, const struct asked *b)
 {
-    const double rounding = 1e-10;
     size_t size = plan_size(&q->state->model->plan);
     double aa = 0, bb = 0, ab = 0, alone = 0;
     for (size_t i = 0; i <= size; i++) {
@@ -147,8 +145,8 @@ static double ratio_of(const struct question *q, const struct asked *a, const st
         ab += x * y;
         alone += own * own;
     }
-    bool moves = aa > rounding * rounding * alone;
-    return moves && ab * ab >= (1 - rounding) * aa * bb && ab != 0 ? ab / aa : 0;
+    bool moves = aa > solved_rounding * solved_rounding * alone;
+    return moves && ab * ab >= (1 - solved_rounding) * aa * bb && ab != 0 ? ab / aa : 0;
 }
 
 /* At u = 0 and w = 0 of the switch that comes to rest, is another switch, whose gradient is `ratio` times
@@ -156,7 +154,6 @@ static double ratio_of(const struct question *q, const struct asked *a, const st
 static bool comes_along(const struct question *q, const struct asked *ended, const struct asked *other,
                         double ratio)
 {
-    const double rounding = 1e-9;
     const struct fbd_state *state = q->state;
     const struct kink *kinks = state->model->plan.kinks, *kink = &kinks[other->kink];
     const struct instant at = state_instant(state);
@@ -168,7 +165,7 @@ static bool comes_along(const struct question *q, const struct asked *ended, con
                       : sliding_surface(state->sliding, state->model, &at, &kinks[ended->kink], ended->part);
     for (size_t i = 0; i < n; i++)
         size += fabs(asked_slope(q, other, 1 + n + i) * state->y[places ? i : n + i]);
-    return fabs(u - ratio * rest) <= rounding * size;
+    return fabs(u - ratio * rest) <= undecided_part * size;
 }
 
 static bool is_listed(const struct question *q, int branch)

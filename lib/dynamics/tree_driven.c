@@ -27,7 +27,7 @@ double tree_hold_acceleration(const struct fbd_state *state, const struct instan
  * rest they have the rounding of accelerations [m/s^2] of this size over the time. */
 static bool velocities_fit(const struct fbd_state *state, double size)
 {
-    const double large = 0.01, rounding = 1e-9;
+    const double large = 0.01, rounding = undecided_part;
     const struct tree *tree = state->model->tree;
     const struct instant at = state_instant(state);
     double fastest = 0, off = 0;
@@ -39,11 +39,10 @@ static bool velocities_fit(const struct fbd_state *state, double size)
 
 bool tree_seen_acceleration(const struct fbd_state *state, double a)
 {
-    const double rounding = 1e-9;
     double size = vec_norm(state->model->scene->gravity);
     for (int i = 1; i < state->model->tree->count; i++)
         size = fmax(size, vec_norm(state->tree->links[i].A.a));
-    return fabs(a) > rounding * size && velocities_fit(state, size);
+    return fabs(a) > undecided_part * size && velocities_fit(state, size);
 }
 
 double tree_coupled_acceleration(const struct fbd_state *state)
@@ -66,7 +65,7 @@ static double reach_of(const struct fbd_state *state)
 
 double tree_unseen_speed(const struct fbd_state *state, double time)
 {
-    const double share = 1e-12, roundings = round_off(64, 1);
+    const double share = negligible_sum, roundings = round_off(64, 1);
     double fastest = 0;
     for (int i = 1; i < state->model->tree->count; i++)
         fastest = fmax(fastest, vec_norm(state->tree->links[i].v));

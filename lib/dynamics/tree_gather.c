@@ -11,6 +11,7 @@
 #include "dynamics/modes.h"
 #include "dynamics/tree_driven.h"
 #include "dynamics/tree_system.h"
+#include "numeric/tolerances.h"
 
 /* ---- the constraints to be decided */
 
@@ -107,7 +108,7 @@ static void add_answers(struct gathered *all, size_t k)
 }
 
 /* The relative response below which the couplings make a constraint immovable: it moves by rounding only. */
-static const double immovable = 1e-12;
+static const double immovable = negligible_sum;
 
 static void hold_still(struct gathered *all, size_t k)
 {
@@ -233,7 +234,6 @@ static void set_free(struct gathered *all)
  * decided without the switch. */
 static void let_shares_answer(struct gathered *all, size_t k)
 {
-    const double rounding = 1e-9;
     struct hold_problem *problem = &all->problem;
     const struct shared_out *shares = &all->shares;
     double *step = shares->rates + k * (size_t)shares->units;
@@ -242,7 +242,7 @@ static void let_shares_answer(struct gathered *all, size_t k)
         double *A = &problem->A[i * problem->count + k], taken = 0;
         for (int unit = 0; unit < shares->units; unit++)
             taken += shares->c[(size_t)unit * problem->count + i] * step[unit];
-        bool all_of_it = fabs(*A + taken) <= rounding * fabs(taken);
+        bool all_of_it = fabs(*A + taken) <= undecided_part * fabs(taken);
         if (!all_of_it || i != k) *A = all_of_it ? 0 : *A + taken;
     }
     for (size_t g = 0; g < problem->guide_count; g++)

@@ -115,7 +115,7 @@ static bool moves_on(const struct fbd_state *state, int pair)
 static int next_mode(const struct fbd_state *state, const struct decided *decided, const double *slots,
                      const double *slots_along, int pair, bool solved, bool *by_rate)
 {
-    const double rounding = 1e-12, slacks = 4, beyond = solved ? 100 : 1;
+    const double rounding = negligible_sum, slacks = 4, beyond = solved ? 100 : 1;
     const struct fbd_model *model = state->model;
     const struct mode *hold = mode_of(state, pair);
     struct instant at = state_instant(state);
@@ -331,10 +331,9 @@ static bool decide(struct fbd_state *state, const struct decided *decided, int *
  * ineffective, or too weak. */
 static bool shares_fit(const struct sliding *s)
 {
-    const double rounding = 1e-10;
     bool fit = !s->failed;
     for (int j = 0; j < s->count; j++)
-        fit &= s->slides[j].share >= -rounding && s->slides[j].share <= 1 + rounding;
+        fit &= s->slides[j].share >= -solved_rounding && s->slides[j].share <= 1 + solved_rounding;
     return fit;
 }
 

@@ -3,6 +3,7 @@
 
 #include "dynamics/modes.h"
 #include "dynamics/tree_gather.h"
+#include "numeric/tolerances.h"
 
 /* In Painleve's paradox a friction increases its own normal force: find the one with the largest such
  * response. */
@@ -46,19 +47,18 @@ static double limit_of(const struct hold_problem *problem, const struct hold *ho
  * open. Friction that slips only by rounding may as well stick: keeps_still. */
 static int barely_holds(const struct gathered *all, size_t i)
 {
-    const double rounding = 1e-9;
     const struct hold *hold = &all->problem.holds[i];
     bool slips = hold->kind == hold_friction && hold->slip == 0 && hold->mode != hold_keeps;
-    if (slips && !holds_is_on_open(&all->problem, hold) && holds_is_still(&all->problem, i, rounding))
+    if (slips && !holds_is_on_open(&all->problem, hold) && holds_is_still(&all->problem, i, undecided_part))
         return keeps_still;
     if (hold->slip != 0 || hold->mode != hold_keeps) return 0;
     if (hold->kind == hold_one_sided) {
         double most = 0;
         for (size_t j = 0; j < all->problem.count; j++) most = fmax(most, fabs(all->problem.holds[j].force));
-        return hold->force <= rounding * most ? hold_gives : 0;
+        return hold->force <= undecided_part * most ? hold_gives : 0;
     }
     double limit = limit_of(&all->problem, hold);
-    if (!(limit > 0) || fabs(hold->force) < (1 - rounding) * limit) return 0;
+    if (!(limit > 0) || fabs(hold->force) < (1 - undecided_part) * limit) return 0;
     return hold->force > 0 ? -1 : 1;
 }
 

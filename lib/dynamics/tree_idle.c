@@ -8,6 +8,7 @@
 #include "dynamics/tree_driven.h"
 #include "dynamics/tree_gather.h"
 #include "dynamics/tree_shared.h"
+#include "numeric/tolerances.h"
 
 /* Set it to slip to the side of its motion; at rest to the side before. */
 static void leave_idle(struct fbd_state *state, const struct decided *decided, int *forced, int pair)
@@ -33,7 +34,7 @@ void tree_find_frictionless(struct fbd_state *state, const struct decided *decid
 
 void tree_find_unpressed(struct gathered *all, const struct decided *decided, int *forced)
 {
-    const double little = 1e-12, little_rate = 1e-10;
+    const double little = negligible_sum, little_rate = solved_rounding;
     struct fbd_state *state = all->state;
     const double *slots_along = state_scratch(state).slots_along;
     size_t count = all->problem.count;

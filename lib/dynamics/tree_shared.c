@@ -5,6 +5,7 @@
 
 #include "dynamics/tree_gather.h"
 #include "dynamics/user_states.h"
+#include "numeric/tolerances.h"
 
 struct direction tree_evaluate(struct fbd_state *state)
 {
@@ -67,9 +68,8 @@ static void give(struct fbd_state *state, const struct rest_margin *margin, int 
 
 enum agreement tree_judge(struct fbd_state *state, const struct rest_margin *margin, int *forced)
 {
-    const double near = 1e-9;
     if (margin->value >= -rest_margin_slack(margin) / 2) return agrees;
-    if (margin->value < -near * margin->size) return differs;
+    if (margin->value < -undecided_part * margin->size) return differs;
     give(state, margin, forced);
     return at_limit;
 }

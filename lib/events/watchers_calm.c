@@ -24,7 +24,7 @@ static double speed_to_come(const struct fbd_state *state, int pair)
  * direction, or too fast for such a residue. `v`: its velocity in the slip direction. */
 static double short_of_side(const struct fbd_state *state, int pair, double v)
 {
-    const double rounding = slip_residue;
+    const double rounding = undecided_part;
     const struct instant at = state_instant(state);
     double fastest = 0;
     if (v >= 0) return 0;

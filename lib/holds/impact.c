@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "holds/impact.h"
+#include "numeric/tolerances.h"
 
 #include <math.h>
 
@@ -48,7 +49,7 @@ static void go(struct place *at, const struct slope *slope, double dp, double re
 /* Is W of rank one, to rounding? */
 static bool is_on_a_line(const struct impact_point *point)
 {
-    const double rounding = 1e-12, *W = point->W;
+    const double rounding = negligible_sum, *W = point->W;
     return W[2] > 0 && W[0] * W[2] - W[1] * W[1] <= rounding * W[0] * W[2];
 }
 
@@ -63,7 +64,7 @@ static bool is_locked(const struct impact_point *point, const struct place *at)
 static bool compress(const struct impact_point *point, struct place *at)
 {
     enum { most_pieces = 3 };
-    const double at_once = 1e-9 * -at->v_n;
+    const double at_once = undecided_part * -at->v_n;
     for (int piece = 0; piece < most_pieces && at->v_n < 0; piece++) {
         if (is_locked(point, at)) return false;
         struct slope slope = slope_at(point, at);
@@ -141,7 +142,7 @@ static bool sticks_after(const struct impact_point *point, const struct place *b
 /* With W of rank one: does the line of velocities pass through rest? */
 static bool leads_to_rest(const struct impact_point *point, const struct place *before)
 {
-    const double rounding = 1e-9, *W = point->W;
+    const double rounding = undecided_part, *W = point->W;
     return is_on_a_line(point) &&
            fabs(before->v_t - W[1] / W[0] * before->v_n) <= rounding * hypot(before->v_n, before->v_t);
 }

@@ -15,12 +15,11 @@
 /* The point that closes fastest; at equal speeds the first, independent of rounding. */
 static int fastest(const struct impacts *impacts, double least)
 {
-    const double same = 1e-12;
     double most = -least;
     int best = -1;
     for (int i = 0; i < impacts->count; i++) {
         double v = impacts->v[(ptrdiff_t)2 * i];
-        if (!(v < most * (best < 0 ? 1 : 1 + same))) continue;
+        if (!(v < most * (best < 0 ? 1 : 1 + negligible_sum))) continue;
         most = v;
         best = i;
     }
@@ -102,8 +101,7 @@ static bool grows(const struct impacts *impacts, double before)
 static enum impacts_end propagate(struct impacts *impacts)
 {
     enum { most_rounds = 10000 };
-    const double rounding = 1e-15; /* of the speeds before */
-    double least = rounding * fastest_speed(impacts), before = weighted_speed(impacts);
+    double least = round_off(8, fastest_speed(impacts)), before = weighted_speed(impacts);
     for (int round = 0; round < most_rounds; round++) {
         int i = fastest(impacts, least);
         if (i < 0) {
@@ -137,8 +135,7 @@ static bool feel_each_other(const void *context, int i, int j)
  */
 static enum impacts_end propagate_to_the_end(struct impacts *impacts)
 {
-    const double nothing = 1e-9;
-    double before = weighted_speed(impacts), slow = nothing * fastest_speed(impacts);
+    double before = weighted_speed(impacts), slow = undecided_part * fastest_speed(impacts);
     enum impacts_end end = propagate(impacts);
     bool loses = true;
     for (int i = 0; i < impacts->count; i++) loses &= impacts->points[i].e < 1;
@@ -164,7 +161,7 @@ enum doing { does_not, does_to_rounding, does_to_digits };
 
 static enum doing do_what_they_say(const struct impacts *impacts, const double *before)
 {
-    const double share = 1e-9, of_products = round_off(4, 1); /* also of the entries of W */
+    const double share = undecided_part, of_products = round_off(4, 1); /* also of the entries of W */
     int n = impacts_size(impacts);
     double wrong = 0, beyond = 0, energy = 0;
     for (int i = 0; i < n; i++) {
@@ -227,7 +224,6 @@ static void set_off(const struct impacts *impacts, const double *before, struct 
 /* Are velocities and works equal to a relative 1e-9? */
 static bool is_same(const struct impacts *impacts, const struct impacts *off, const double *before)
 {
-    const double promise = 1e-9;
     const int n = impacts_size(impacts);
     double energy = 0;
     bool same = true;
@@ -238,9 +234,9 @@ static bool is_same(const struct impacts *impacts, const struct impacts *off, co
     }
     for (int i = 0; i < n; i++) {
         double own = fmax(0, impacts->W[i * n + i]);
-        same &= fabs(impacts->v[i] - off->v[i]) <= promise * sqrt(energy * own);
+        same &= fabs(impacts->v[i] - off->v[i]) <= undecided_part * sqrt(energy * own);
     }
-    return same && fabs(impacts->work - off->work) <= promise * energy;
+    return same && fabs(impacts->work - off->work) <= undecided_part * energy;
 }
 
 /* For impulses far larger than each point alone would need, so that rounding affects their sums. They arise

@@ -30,14 +30,13 @@ static double answer_to(const struct hold_problem *problem, size_t i, const doub
 /* The largest t with which constraint i is consistent with its mode. */
 static double furthest_of(const struct hold_problem *problem, size_t i, const double *z, double size)
 {
-    const double rounding = 1e-9;
     const struct hold *hold = &problem->holds[i];
     double t = HUGE_VAL, most = 0;
     for (size_t j = 0; j < problem->count; j++) most = fmax(most, fabs(z[j]));
-    const double zero = rounding * size, least = rounding * most;
+    const double zero = undecided_part * size, least = undecided_part * most;
     if (hold->mode != hold_keeps) {
         double weight = holds_weight(problem, i), way = hold->mode * weight;
-        double none = rounding * problem->size;
+        double none = undecided_part * problem->size;
         if (holds_is_on_open(problem, hold) || weight == 0) return t;
         return within(t, way * hold->c, way * answer_to(problem, i, z), none, least / weight);
     }
@@ -52,7 +51,6 @@ static double furthest_of(const struct hold_problem *problem, size_t i, const do
  * negligible. */
 static bool set_step(const struct hold_problem *problem, const double *z, double *step)
 {
-    const double short_of = 1e-6;
     double t = HUGE_VAL, size = 0, most = 0;
     for (size_t i = 0; i < problem->count; i++) {
         size = fmax(size, fabs(problem->holds[i].force));
@@ -61,7 +59,7 @@ static bool set_step(const struct hold_problem *problem, const double *z, double
     for (size_t i = 0; i < problem->count; i++) t = fmin(t, furthest_of(problem, i, z, size));
     t = fmin(t / 2, size / most);
     for (size_t i = 0; i < problem->count; i++) step[i] = t * z[i];
-    return t * most > short_of * size;
+    return t * most > distinct_part * size;
 }
 
 /* Friction without a coefficient has no force, whatever its mode. */
@@ -101,7 +99,7 @@ static int find_open(const struct hold_problem *problem, double *M, double *null
     size_t n = problem->count;
     struct qr qr;
     for (size_t i = 0; i < n; i++) set_row(problem, i, M + i * n);
-    bool made = qr_decompose(&qr, n, n, M, singular_value_zero);
+    bool made = qr_decompose(&qr, n, n, M, solved_rounding);
     if (made) qr_set_orthonormal_null(&qr, null);
     qr_free(&qr);
     return made ? (int)(n - qr.rank) : -1;
@@ -110,7 +108,6 @@ static int find_open(const struct hold_problem *problem, double *M, double *null
 /* Project a unit force at constraint i onto the null space. False where the projection vanishes. */
 static bool project(const struct hold_problem *problem, const double *null, int open, size_t i, double *z)
 {
-    const double rounding = 1e-9;
     size_t n = problem->count;
     double most = 0;
     for (size_t j = 0; j < n; j++) {
@@ -119,7 +116,7 @@ static bool project(const struct hold_problem *problem, const double *null, int 
         z[j] = scale_of(problem, j) * sum;
         most = fmax(most, fabs(sum));
     }
-    return most > rounding;
+    return most > undecided_part;
 }
 
 int holds_other_forces(struct hold_problem *problem, double *steps)

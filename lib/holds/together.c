@@ -128,11 +128,10 @@ static enum impacts_end compress(struct together *together)
  * gets no restitution, since closing and opening could not be distinguished. */
 static bool is_no_impulse(const struct together *together, int row)
 {
-    const double rounding = 1e-9;
     const struct hold_problem *problem = &together->problem;
     double most = problem->size * holds_weight(problem, (size_t)row);
     for (int k = 0; k < 2 * together->impacts->count; k += 2) most = fmax(most, together->P[k]);
-    return together->P[row] <= rounding * most;
+    return together->P[row] <= undecided_part * most;
 }
 
 /* Restitution with `share` times e: given normal impulses, the friction that they cause, and impulses at
@@ -238,14 +237,13 @@ static enum impacts_end close_in(struct together *together, struct between *betw
 static enum impacts_end restore_by_law(struct together *together)
 {
     enum { doublings = 10 };
-    const double rounding = 1e-13;
     const struct impacts *impacts = together->impacts;
     double size = 0;
     for (int row = 0; row < 2 * impacts->count; row += 2) size += fabs(together->P[row] * impacts->v[row]);
     struct between between = {0, 1, 0, 0};
     bool stronge = impacts->law == impact_stronge;
     enum impacts_end end = try_share(together, 1, &between.at_high);
-    if (end != impacts_done || fabs(between.at_high) <= rounding * size) return end;
+    if (end != impacts_done || fabs(between.at_high) <= negligible_part * size) return end;
     if (between.at_high < 0 && !stronge) return end;
     if (between.at_high > 0) end = try_share(together, 0, &between.at_low);
     double jammed = 0; /* factor beyond which larger impulses no longer increase the returned energy */
@@ -254,12 +252,12 @@ static enum impacts_end restore_by_law(struct together *together)
         between.at_low = between.at_high;
         between.high *= 2;
         end = try_share(together, between.high, &between.at_high);
-        bool same = fabs(between.at_high - between.at_low) <= rounding * size;
+        bool same = fabs(between.at_high - between.at_low) <= negligible_part * size;
         jammed = !same ? 0 : jammed > 0 ? jammed : between.low;
     }
     if (end == impacts_done && between.at_high < 0 && jammed > 0) return restore(together, jammed);
     if (end != impacts_done || between.at_high <= 0) return end;
-    end = close_in(together, &between, rounding * size);
+    end = close_in(together, &between, negligible_part * size);
     return end == impacts_done ? restore(together, between.low) : end;
 }
 
@@ -283,10 +281,9 @@ static void finish(struct impacts *impacts, const double *P, const double *v)
 
 static bool are_others(const struct impacts *impacts, const double *v, const double *other, double before)
 {
-    const double near = 1e-6;
     for (int i = 0, n = impacts_size(impacts); i < n; i++) {
         double own = impacts->W[i * n + i];
-        if (own > 0 && fabs(v[i] - other[i]) > near * before * sqrt(own)) return true;
+        if (own > 0 && fabs(v[i] - other[i]) > distinct_part * before * sqrt(own)) return true;
     }
     return false;
 }

@@ -132,7 +132,7 @@ int stepper_powers(struct stepper *s, struct time_dd from, struct time_dd to, si
 int stepper_degree(const struct stepper *s, double *negligible)
 {
     const gsl_odeiv2_step_type *type = s->step->type;
-    *negligible = s->inside || s->history ? interpolant_rounding : 0;
+    *negligible = s->inside || s->history ? undecided_part : 0;
     if (type == step_parabola) return 2;
     if (type == step_linear) {
         const int most = 14;

@@ -45,11 +45,10 @@ static void leave_surface(struct run *run, const struct watcher *watcher)
 /* Set rates at round-off level, relative to their largest values, to zero. */
 static void drop_rounding(struct run *run)
 {
-    const double rounding = 1e-14;
     size_t n = (size_t)run->model->plan.n;
     const double *most = run->recent.anchor + plan_size(&run->model->plan);
     for (size_t i = n; i < 2 * n; i++)
-        if (fabs(run->state->y[i]) <= rounding * most[i]) run->state->y[i] = 0;
+        if (fabs(run->state->y[i]) <= evaluation_rounding * most[i]) run->state->y[i] = 0;
 }
 
 /* Has the velocity on a plane turned by a right angle from the direction in which it is watched? That is renewed

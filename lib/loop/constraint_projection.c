@@ -69,7 +69,6 @@ struct rounding {
 
 static struct rounding rounding_of_step(struct run *run)
 {
-    const double share = 1e-12;
     const struct tree *tree = run->model->tree;
     double mass = 0, most = 0, time = run->state->t - run->step.from;
     state_evaluate_unshared(run->state);
@@ -87,7 +86,7 @@ static struct rounding rounding_of_step(struct run *run)
         }
     }
     double unseen = round_off(16, run->drift.reach); /* a displacement at round-off level of positions */
-    double speed = share * most * time + (time > 0 ? unseen / time : 0);
+    double speed = negligible_sum * most * time + (time > 0 ? unseen / time : 0);
     return (struct rounding){speed, speed * time, mass * speed * speed / 2};
 }
 
@@ -308,7 +307,7 @@ void project_step(struct run *run)
  * that the longest step would not make it significant. */
 void rest_held(struct run *run)
 {
-    const double rounding = 1e-14, little = 1e-12;
+    const double rounding = evaluation_rounding, little = negligible_sum;
     const struct plan *plan = &run->model->plan;
     const double *most = run->recent.anchor + plan_size(plan) + plan->n;
     const struct instant at = state_instant(run->state);

@@ -12,6 +12,7 @@
 #include "dynamics/tree_system.h"
 #include "loop/contacts_points.h"
 #include "loop/run.h"
+#include "numeric/tolerances.h"
 #include "rest/start.h"
 
 /* ---- memory */
@@ -299,13 +300,12 @@ static double size_of_speed(struct run *run, const struct slide *slide)
 /* End Filippov sliding modes whose surface is left with a speed after the impact. */
 static void leave_switches(struct run *run)
 {
-    const double rounding = 1e-12;
     struct sliding *s = run->state->sliding;
     const struct instant at = state_instant(run->state);
     for (int j = 0; s && j < s->count; j++) {
         const struct slide *slide = &s->slides[j];
         double u = sliding_surface(s, run->model, &at, &run->model->plan.kinks[slide->kink], slide->part);
-        if (fabs(u) > rounding * size_of_speed(run, slide)) s->slide_at[slide->branch] = 0;
+        if (fabs(u) > negligible_sum * size_of_speed(run, slide)) s->slide_at[slide->branch] = 0;
     }
     if (s) sliding_drop(s);
 }
@@ -321,7 +321,6 @@ static bool is_hit_indirectly(const struct coupling *coupling)
  * cause the next impact. */
 static void unstick(struct run *run, double interval)
 {
-    const double nobody_sees = 1e-9;
     leave_switches(run);
     const struct fbd_model *model = run->model;
     struct instant at = state_instant(run->state);
@@ -332,7 +331,8 @@ static void unstick(struct run *run, double interval)
         bool row = mode->kind == mode_tangent && is_hit_indirectly(&tree_of(run)->couplings[mode->coupling]);
         if (!(row || mode_is_joint_friction(mode)) || run->state->slip[pair] != stick) continue;
         double v = slip_velocity(model, pair, &at), before = row ? 0 : fastest[mode->coordinate];
-        if (fabs(v) <= 1e-14 * before || (interval > 0 && fabs(v) * interval <= nobody_sees)) continue;
+        if (fabs(v) <= evaluation_rounding * before || (interval > 0 && fabs(v) * interval <= undecided_part))
+            continue;
         run->state->slip[pair] = v > 0 ? slip_plus : slip_minus;
     }
 }

@@ -199,8 +199,8 @@ double run_contact_bend(struct run *run, double from, double to)
 /* Does the overlap of a pair not increase? Contacts that have just opened separate from rest, to rounding. */
 static bool parts(const struct run *run, const struct instant *at, int index)
 {
-    const double rounding = 1e-10,
-                 of_all = 1e-13; /* relative to the present speeds, and to the largest of the run */
+    const double rounding = solved_rounding,
+                 of_all = negligible_part; /* relative to the present speeds, and to the largest of the run */
     const struct meeting *meeting = &tree_of(run)->meetings[index];
     double least = HUGE_VAL, speed = meeting_speed(run->state->tree, meeting);
     for (int probe = 0; probe < meeting->probes; probe++) {

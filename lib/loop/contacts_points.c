@@ -5,6 +5,7 @@
 #include "dynamics/tree_system.h"
 #include "loop/contacts.h"
 #include "loop/run.h"
+#include "numeric/tolerances.h"
 
 static const struct tree *tree_of(const struct run *run)
 {
@@ -24,7 +25,7 @@ static double speed_at(const struct run *run, const struct row *row)
 
 double contacts_no_speed(const struct run *run, const struct row *row)
 {
-    const double rounding = 1e-11, of_all = 1e-13;
+    const double rounding = 1e-11, of_all = negligible_part;
     return fmax(rounding * speed_at(run, row), of_all * run->contacts.speed);
 }
 
@@ -56,7 +57,6 @@ static const struct port *port_on(const struct row *row, int link)
  * tolerance, directions to the digits of a file. */
 static bool coincide(const struct run *run, int a, int b)
 {
-    const double direction = 1e-9;
     const struct coupling *couplings = tree_of(run)->couplings;
     const struct tree_work *work = run->state->tree;
     int first = couplings[a].end[0].link, second = couplings[a].end[1].link, index = couplings[a].meeting;
@@ -68,7 +68,7 @@ static bool coincide(const struct run *run, int a, int b)
     int link = first > 0 ? first : second;
     const struct port *p = port_on(&work->rows[couplings[a].first_row], link),
                       *q = port_on(&work->rows[couplings[b].first_row], link);
-    return p && q && vec_norm(vec_sub(p->force, q->force)) <= direction &&
+    return p && q && vec_norm(vec_sub(p->force, q->force)) <= undecided_part &&
            vec_norm(vec_sub(p->arm, q->arm)) <= contacts_same * meeting_near(run->model, work, index);
 }
 

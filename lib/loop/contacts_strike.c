@@ -14,6 +14,7 @@
 #include "dynamics/tree_system.h"
 #include "loop/contacts.h"
 #include "loop/run.h"
+#include "numeric/tolerances.h"
 
 static const struct tree *tree_of(const struct run *run)
 {
@@ -114,7 +115,7 @@ static bool moves_along(const struct contacts_work *work, int all, int i)
  * body, for example. For a point at rest to rounding the friction impulse is indeterminate: 0. */
 static int slips_on(const struct contacts_work *work, int count, int i)
 {
-    const double rounding = 1e-9; /* of the speeds */
+    const double rounding = undecided_part; /* of the speeds */
     double most = 0, v_t = work->v[2 * i + 1];
     for (int row = 0; row < 2 * count; row++) most = fmax(most, fabs(work->v[row]));
     return !work->strikers[i].rubs || fabs(v_t) <= rounding * most ? 0 : v_t > 0 ? 1 : -1;
@@ -285,7 +286,6 @@ static void drop_rounding(struct run *run, int count)
  * coupling to coupling. */
 static void stop_rounding(struct run *run, int count)
 {
-    const double rounding = 1e-10;
     const struct fbd_model *model = run->model;
     const struct tree *tree = tree_of(run);
     const struct instant at = state_instant(run->state);
@@ -299,8 +299,8 @@ static void stop_rounding(struct run *run, int count)
             given +=
                 fabs(impulse_of(&run->contacts, i) *
                      run->contacts.answers[(size_t)i * (size_t)model->plan.n + (size_t)link->coordinate]);
-        if (fabs(*v) <= rounding * given) *v = 0;
-        if (fabs(*v - surface) <= rounding * given) *v = surface;
+        if (fabs(*v) <= solved_rounding * given) *v = 0;
+        if (fabs(*v - surface) <= solved_rounding * given) *v = surface;
     }
 }
 
@@ -415,7 +415,7 @@ bool contacts_solve_impact(struct run *run, int count)
     }
     double size = 0;
     for (int i = 0; i < impacts_size(&impacts); i++) size += fabs(work->P[i] * work->v[i]);
-    work->makes = impacts.work > 1e-12 * size;
+    work->makes = impacts.work > negligible_sum * size;
     work->in_turn = impacts.in_turn;
     work->several = impacts.several;
     return true;

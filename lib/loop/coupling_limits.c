@@ -13,6 +13,7 @@
 #include "dynamics/constraint.h"
 #include "dynamics/project.h"
 #include "loop/run.h"
+#include "numeric/tolerances.h"
 
 struct end {
     struct run *run;
@@ -54,8 +55,7 @@ static struct room room_at(const struct end *end, double t)
 /* Is the room negative by more than rounding? */
 static bool is_used_up(struct room room)
 {
-    const double rounding = 1e-12;
-    return room.left < -rounding * room.size;
+    return room.left < -negligible_sum * room.size;
 }
 
 /* A time in an interval at which the room is used up, tested near its minimum; NAN if there is none. */

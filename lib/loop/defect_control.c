@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "loop/run.h"
+#include "numeric/tolerances.h"
 
 /* The derivative of the interpolant at a fraction of the step, by differences, and the right-hand side there. */
 static bool take_slopes(struct run *run, double share, double h, double *slope, double *f)
@@ -37,7 +38,7 @@ static double largest(const double *most, size_t from, size_t to)
 static bool obeys(const struct run *run, double h, const double *slope, const double *f, size_t from,
                   size_t to)
 {
-    const double far_off = 0.01, nothing = 1e-9, roundings = 4;
+    const double far_off = 0.01, nothing = undecided_part, roundings = 4;
     const size_t n = (size_t)run->model->plan.n;
     const double *most = run->recent.anchor + plan_size(&run->model->plan);
     double least = nothing * fmax(largest(most, from, to), largest(run->work.y, from, to));

@@ -185,7 +185,7 @@ static void set_floors(struct run *run, double tau, const double *times)
 {
     const struct tree *tree = run->model->tree;
     /* Touching bodies rest or separate by roundings of their gaps: each keeps its own scale. */
-    const double negligible = tree && tree->meeting_count > 0 ? 0 : 1e-9;
+    const double negligible = tree && tree->meeting_count > 0 ? 0 : undecided_part;
     struct motion_size all = largest_motion(run, times);
     for (size_t b = 0; b < run->model->body_count; b++) {
         const struct model_body *body = &run->model->bodies[b];

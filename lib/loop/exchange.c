@@ -9,6 +9,7 @@
 #include "dynamics/project.h"
 #include "loop/contacts.h"
 #include "loop/switch_event.h"
+#include "numeric/tolerances.h"
 
 /* ---- scenes whose events are not all zeros of functions */
 
@@ -156,7 +157,7 @@ void exchange_functions(struct exchange *exchange, double *values)
  * tolerance. */
 static bool project(struct run *run)
 {
-    const double least = 1e-12; /* rounding in a mechanism of many rows, relative to its size */
+    const double least = negligible_sum; /* rounding in a mechanism of many rows, relative to its size */
     const double tolerance = fmax(run->options.tolerance, least);
     const struct tree *tree = run->model->tree;
     if (!tree || tree->coupling_count == 0) return false;

@@ -11,6 +11,7 @@
 #include "dynamics/constraint.h"
 #include "dynamics/project.h"
 #include "loop/run.h"
+#include "numeric/tolerances.h"
 
 /* The angle of wrap at pulley `coupling` in state y. */
 static double wrap_at(struct run *run, int coupling, const double *y)
@@ -24,8 +25,7 @@ static double wrap_at(struct run *run, int coupling, const double *y)
 /* Is the angle negative by more than rounding? */
 static bool is_off(double wrap)
 {
-    const double rounding = 1e-12;
-    return wrap < -rounding;
+    return wrap < -negligible_sum;
 }
 
 static bool is_taut(const struct fbd_state *state, const struct coupling *coupling)

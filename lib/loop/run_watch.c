@@ -206,7 +206,7 @@ static double follow(struct run *run, double from, double to, bool coarse, const
     double negligible;
     int degree = switcher_degree(run->stepper, &negligible);
     if (run->search.follows_places || any_leads(run)) { /* functions of the motion, not polynomials */
-        negligible = fmax(negligible, 1e-13);
+        negligible = fmax(negligible, negligible_part);
         degree = trajectory_most_degree;
     }
     set_noise(run);
@@ -297,7 +297,7 @@ static double size_of(const struct run *run, size_t i, double reach, double spee
  * the bounds of their rates are meaningless. */
 static void hold_noise(struct run *run)
 {
-    const double negligible = 1e-10, roundings = 4;
+    const double negligible = solved_rounding, roundings = 4;
     double speed = 0, reach = tree_joins(run->model->tree) ? measure(run, &speed) : 0;
     for (size_t k = 0; k < run->trajectory.count; k++) {
         int i = run->trajectory.component[k];

@@ -10,6 +10,7 @@
 #include "dynamics/rest_system.h"
 #include "expr/table.h"
 #include "loop/zeno.h"
+#include "numeric/tolerances.h"
 #include "rest/start.h"
 
 /* Switches between the pieces of a curve belong to its body, and to no load. */
@@ -57,8 +58,7 @@ static bool is_smooth(const struct expr *expr, const struct watcher *watcher, in
 /* Do two values of a motion differ by more than rounding, relative to `size`? */
 static bool jumps(double before, double after, double size)
 {
-    const double rounding = 1e-9;
-    return fabs(after - before) > rounding * size;
+    return fabs(after - before) > undecided_part * size;
 }
 
 /* Prescribed motions, and lengths of ropes, must have a continuous position and velocity: a jump requires an

@@ -13,7 +13,7 @@
 #include "numeric/tolerances.h"
 
 /* Speeds after an impact below this share of those before it are rounding. */
-static const double leaving_rounding = 1e-9;
+static const double leaving_rounding = undecided_part;
 
 static const struct tree *tree_of(const struct run *run)
 {
@@ -297,7 +297,7 @@ bool zeno_end_bounces(struct run *run, int count)
 /* The opening below which a constraint stays closed. */
 static double unseen_of(const struct run *run, const struct striker *striker)
 {
-    const double nobody_sees = 1e-9; /* of a rope */
+    const double nobody_sees = undecided_part; /* of a rope */
     const struct instant at = state_instant(run->state);
     if (striker->rope) return nobody_sees * run->state->tree->couplings[striker->coupling].zero;
     return one_sided_at(run->model, &at, tree_of(run)->couplings[striker->coupling].surface).near;

@@ -143,7 +143,7 @@ static bool solve(struct remainder *remainder)
         set_tangent(remainder, i);
     }
     for (int k = 0; k < remainder->run->contacts.slide_count; k++) set_slide(remainder, k);
-    const bool done = qr_decompose(&qr, all, all, remainder->A, singular_value_zero);
+    const bool done = qr_decompose(&qr, all, all, remainder->A, solved_rounding);
     if (done) qr_add_solution(&qr, remainder->b, remainder->P);
     qr_free(&qr);
     for (int k = 0; k < remainder->all; k++) remainder->P[k] *= unit_of(remainder, k);

@@ -6,6 +6,7 @@
 
 #include "dynamics/modes.h"
 #include "loop/run.h"
+#include "numeric/tolerances.h"
 
 enum { remembered = 5 };
 
@@ -56,14 +57,13 @@ static double size_of(struct run *run, const struct kink *kink, int part)
 /* The total time of all further crossings, if they stay within 1e-9 of the scene; else HUGE_VAL. */
 static double time_left(struct run *run, const struct kink *kink, int part)
 {
-    const double unseen = 1e-9;
     const double *t = run->zeno_switches.list[kink->formula.branch + part].t;
     const struct instant at = state_instant(run->state);
     double last = t[0] - t[2], before = t[2] - t[4], ratio = last / before;
     if (!(ratio > 0 && ratio < 1)) return HUGE_VAL;
     double left = last * ratio / (1 - ratio);
     double speed = fabs(sliding_surface(run->state->sliding, run->model, &at, kink, part));
-    return speed * fmax(left, last) <= unseen * size_of(run, kink, part) ? left : HUGE_VAL;
+    return speed * fmax(left, last) <= undecided_part * size_of(run, kink, part) ? left : HUGE_VAL;
 }
 
 void zeno_switch_end(struct run *run)

@@ -104,7 +104,7 @@ static size_t keep_least(const struct tableau *tableau, size_t k, size_t count)
                    tableau->pivots[i];
         least = fmin(least, ratio[t]);
     }
-    double most = least + lcp_zero * (1 + fabs(least));
+    double most = least + undecided_part * (1 + fabs(least));
     for (size_t t = 0; t < count; t++)
         if (ratio[t] <= most) tied[kept++] = tied[t];
     return kept;
@@ -117,7 +117,7 @@ static size_t leaving_row(const struct tableau *tableau, size_t entering)
     size_t n = tableau->n, count = 0;
     for (size_t i = 0; i < n; i++) {
         tableau->pivots[i] = row_of(tableau, i)[entering];
-        if (tableau->pivots[i] > lcp_zero) tableau->tied[count++] = i;
+        if (tableau->pivots[i] > undecided_part) tableau->tied[count++] = i;
     }
     if (count == 0) return n;
     count = keep_least(tableau, n, count);

@@ -124,7 +124,7 @@ static bool differ(const struct pivoting_block *block, const struct pivoting_row
                    const struct pivoting_row *b)
 {
     double level = fmax(pivoting_level(block, a), pivoting_level(block, b));
-    level *= pivoting_difference / pivoting_residual;
+    level *= pivoting_difference / solved_rounding;
     for (size_t i = 0; i < block->n; i++)
         if (fabs(a[i].w - b[i].w) > level) return true;
     return false;

@@ -269,7 +269,7 @@ double pivoting_level(const struct pivoting_block *block, const struct pivoting_
 {
     double square = 0;
     for (size_t i = 0; i < block->n; i++) square += rows[i].x * rows[i].x;
-    return pivoting_residual * (block->size + sqrt(square));
+    return solved_rounding * (block->size + sqrt(square));
 }
 
 static bool set_accelerations(struct fit *fit)

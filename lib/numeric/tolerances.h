@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Tolerances of numeric, integrate, model, events and record: each with its unit, meaning and reason. A number of this kind
- * elsewhere in these rooms fails a test (tests/tools/check_files). Numbers without a unit are relative to the size that is
- * named with them.
+ * Tolerances of numeric, integrate, model, events, record, holds and rest: each with its unit, meaning and reason. A number
+ * of this kind elsewhere in these rooms fails a test (tests/tools/check_files). Numbers without a unit are relative to the
+ * size that is named with them.
  */
 #ifndef FBD_NUMERIC_TOLERANCES_H
 #define FBD_NUMERIC_TOLERANCES_H
@@ -25,6 +25,20 @@ static const double negligible_part = 1e-13;
 
 /* The same of sums of thousands of terms, or with cancellation by a factor of ten. */
 static const double negligible_sum = 1e-12;
+
+/* Round-off of one evaluation of the motion, relative to the largest value of its kind in the run. */
+static const double evaluation_rounding = 1e-14;
+
+/* Round-off of numbers that solve the equations of motion (accelerations, forces, speeds along couplings), relative to the
+ * largest of their kind: systems of some dozen rows lose six digits. */
+static const double solved_rounding = 1e-10;
+
+/* The level of the solution at a decision: a number below this part of the largest of its kind counts as zero, since the
+ * integrator, interpolants of steps and the digits of a file have errors of that size. */
+static const double undecided_part = 1e-9;
+
+/* Results (velocities after an impact, forces, trials of a search) that differ by less than this part are one result. */
+static const double distinct_part = 1e-6;
 
 /* Friction on a plane: the part of a run after which a body that starts from rest has a direction (plane_friction.h). */
 static const double soft_part = 1e-10;
@@ -49,20 +63,26 @@ static const double contact_near = 1e-12;
  * from contact. The ends of a coupling that begins fit to the same. */
 static const double contact_level = 1e-8;
 
+/* ---- equilibria */
+
+/* The scale of a length that is zero [m]. */
+static const double least_length_scale = 1e-3;
+
+/* A slope that vanishes at the equilibrium, relative to that at the start; and a state near the equilibrium, relative to the
+ * distance of the start. */
+static const double vanishing_slope = 1e-4, near_equilibrium = 1e-3;
+
+/* Coordinates that move less than this part of the others are not used for a balancing force. */
+static const double balancing_motion = 1e-3;
+
 /* ---- linear algebra */
 
-/* Linear complementarity: entries of the tableau that are zero, after some hundred pivots. */
-static const double lcp_zero = 1e-9;
-
-/* Pivoting: equations that depend on others, and inequalities that are violated, relative to the largest; accelerations that
- * are zero, which have ten times that by the equations that were left out; and accelerations of two solutions that differ. */
-static const double pivoting_zero = 1e-11, pivoting_residual = 1e-10, pivoting_difference = 1e-8;
+/* Pivoting: equations that depend on others, and inequalities that are violated, relative to the largest; accelerations
+ * have ten times that by the equations that were left out, `solved_rounding`. Accelerations of two solutions that differ. */
+static const double pivoting_zero = 1e-11, pivoting_difference = 1e-8;
 
 /* Least distance: 1 / |x|^2, below which there is no point x of a size that forces have. */
 static const double least_distance_end = 1e-8;
-
-/* Singular values that are zero, relative to the largest: constraints that are redundant but for the digits of a file. */
-static const double singular_value_zero = 1e-10;
 
 /* ---- steps */
 
@@ -93,9 +113,6 @@ static const double rounded_reach = 1e-9, series_end = 4e-18, negligible_dd = 0x
 
 /* ---- events */
 
-/* Coefficients of the interpolant of a step that uses several evaluations of it: they have the digits of the error estimate. */
-static const double interpolant_rounding = 1e-9;
-
 /* A panel of a search is not shorter than this, relative to the step: shorter ones are sampled. */
 static const double least_panel = 1e-3;
 
@@ -105,13 +122,13 @@ static const double most_series_rounding = 1e-5;
 /* A quantity at rest at its switch may be short of it by the error of the step that reached it. */
 static const double stop_shortfall = 1e-6;
 
-/* A slip that has just begun: velocities below this part of the fastest are the residue of the stick; the band around zero
- * within which the function is silent, its least size, and the time that it lasts, relative to the step. */
-static const double slip_residue = 1e-9, slip_band = 1e-13, least_slip_band = 1e-14, slip_beginning = 1e-9;
+/* A slip that has just begun: the band around zero within which the function is silent, its least size, and the time that it
+ * lasts, relative to the step. */
+static const double slip_band = 1e-13, least_slip_band = 1e-14, slip_beginning = 1e-9;
 
 /* ---- works */
 
-/* Powers: round-off of a value; of forces from a nearly singular system; and the largest tolerance of a quadrature. */
-static const double power_rounding = 1e-14, singular_force_rounding = 1e-6, most_work_tolerance = 1e-7;
+/* Powers: round-off of forces from a nearly singular system, and the largest tolerance of a quadrature. */
+static const double singular_force_rounding = 1e-6, most_work_tolerance = 1e-7;
 
 #endif

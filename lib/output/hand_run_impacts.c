@@ -188,7 +188,7 @@ static bool solve(struct hand_impact *impact)
         size = fmax(size, fabs(impact->after[i]) + fabs(impact->before[i]));
         for (size_t j = 0; j < count; j++) impact->columns[i * count + j] = impact->answers[j * n + i];
     }
-    const bool done = used && qr_decompose(&qr, n, count, impact->columns, singular_value_zero);
+    const bool done = used && qr_decompose(&qr, n, count, impact->columns, solved_rounding);
     memset(impact->P, 0, count * sizeof *impact->P);
     if (done) {
         memcpy(used, jump, n * sizeof *used);

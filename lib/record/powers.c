@@ -213,7 +213,7 @@ static bool take_roundoff(struct ensemble *ensemble, const struct panel *panel, 
 /* Set the round-off level of the works of a panel. */
 static bool set_floor(struct ensemble *ensemble, struct panel *panel)
 {
-    const double rounding = power_rounding;
+    const double rounding = evaluation_rounding;
     double roundoff = 0;
     for (int k = 0; k < gauss_points; k++) {
         struct time_dd t = time_dd_after(panel->from, panel->length / 2 * (1 + point[k]));

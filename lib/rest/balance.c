@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * Round-off levels. A force of a diagram is a sum of products, or an unknown of a solved system: each has an
- * error of `answer_level` times the largest force on the body. Forces are transmitted from body to body, so
+ * error of `undecided_part` times the largest force on the body. Forces are transmitted from body to body, so
  * for jointed bodies it is the largest force on any of them. The error of a moment about G is the error of
  * the force times its arm, plus the rounding of the arm, a difference of two positions in the world, times
  * the force.
@@ -20,10 +20,6 @@
 #include "dynamics/tree.h"
 #include "expr/unit.h"
 #include "numeric/tolerances.h"
-
-/* Runs of all models need less than 2 roundings (tests/unit/test_balance.c); real errors are parts in a
- * thousand. */
-static const double answer_level = 1048576 * DBL_EPSILON;
 
 /* Loads and motion of one body: residuals, and the sizes of their terms. */
 struct sums {
@@ -135,10 +131,10 @@ static struct answer_levels joined_level(const struct fbd_state *state)
     }
     if (work->shared) force = fmax(force, work->shared_size);
     force += mass * (a + omega * v + d * (alpha + omega * omega));
-    force *= answer_level + (reach > 0 ? round_off(64, away) / reach : 0);
+    force *= undecided_part + (reach > 0 ? round_off(64, away) / reach : 0);
     double gyration = mass > 0 ? sqrt(inertia / mass) : 0;
     return (struct answer_levels){force, force * fmax(reach, gyration) +
-                                             answer_level * inertia * (alpha + omega * omega)};
+                                             undecided_part * inertia * (alpha + omega * omega)};
 }
 
 static void say(const struct fbd_state *state, const struct worst *worst, struct text *lack)
@@ -197,10 +193,10 @@ static struct worst find_worst(const struct fbd_state *state, struct answer_leve
     struct worst worst = {.ratio = 1};
     for (int b = 0; b < (int)state->model->body_count; b++) {
         struct sums sums = sums_of(state, b);
-        double force = answer_level * sums.force;
+        double force = undecided_part * sums.force;
         bool jointed = !state->model->bodies[b].alone;
         if (jointed) force = fmax(force, joined.force);
-        double moment = answer_level * sums.moment + force * sums.reach + 64 * sums.place;
+        double moment = undecided_part * sums.moment + force * sums.reach + 64 * sums.place;
         if (jointed) moment = fmax(moment, joined.moment);
         if (answers) {
             force += roundings * answers[b].force;

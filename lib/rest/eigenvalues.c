@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "rest/eigenvalues.h"
 #include "fbd_study.h"
+#include "numeric/tolerances.h"
 
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_errno.h>
@@ -14,7 +15,7 @@ static int by_frequency(const void *left, const void *right)
 {
     const fbd_mode *a = left, *b = right;
     double difference = a->frequency - b->frequency;
-    if (fabs(difference) > 1e-12 * (a->frequency + b->frequency)) return difference < 0 ? -1 : 1;
+    if (fabs(difference) > negligible_sum * (a->frequency + b->frequency)) return difference < 0 ? -1 : 1;
     return a->im > b->im ? -1 : a->im < b->im ? 1 : a->re < b->re ? -1 : 1;
 }
 

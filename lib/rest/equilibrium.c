@@ -15,6 +15,7 @@
 #include "dynamics/tree.h"
 #include "dynamics/user_states.h"
 #include "numeric/lu.h"
+#include "numeric/tolerances.h"
 #include "rest/balance.h"
 #include "rest/independent.h"
 #include "rest/ropes.h"
@@ -199,7 +200,7 @@ static double size_of(const struct resting *balance, size_t i, double q)
 {
     const struct fbd_model *model = balance->state->model;
     if (i < (size_t)model->plan.n && model->scene->coordinates[i].angle) return 1;
-    return fmax(fabs(q), 1e-3);
+    return fmax(fabs(q), least_length_scale);
 }
 
 /* Copy the state, which satisfies the couplings, to q. */
@@ -262,7 +263,7 @@ static double begin_down(struct resting *balance, struct newton *newton, double 
 /* One step, and h of the next one; false when there is no descent. */
 static bool step_down(struct resting *balance, struct newton *newton, double *h)
 {
-    const double shortest = 1e-300, longest = 1e300; /* an infinite step cannot be halved */
+    const double shortest = DBL_MIN, longest = 1 / DBL_MIN; /* an infinite step cannot be halved */
     take_coordinates(balance, newton->q);
     both(newton->q, balance, newton->f, newton->J);
     struct instant at = state_instant(balance->state);
@@ -348,7 +349,7 @@ static void set_start(gsl_vector *q, const struct fbd_model *model, const double
     double share = trial == 0 ? 0 : ldexp(0.1, (trial - 1) / 2) * (trial % 2 ? -1 : 1);
     for (size_t i = 0; i < q->size; i++) {
         bool angle = i < (size_t)model->plan.n && model->scene->coordinates[i].angle;
-        double size = angle ? 1 : fmax(fabs(origin[i]), 1e-3);
+        double size = angle ? 1 : fmax(fabs(origin[i]), least_length_scale);
         gsl_vector_set(q, i, origin[i] + share * size);
     }
 }
@@ -378,7 +379,7 @@ static int search(struct resting *balance)
         keep_place(state, there);
         double distance = distance_between(there, origin, n);
         /* Of two at equal distance to rounding, keep the first. */
-        if (!(distance < nearest * (1 - 1e-9))) continue;
+        if (!(distance < nearest * (1 - undecided_part))) continue;
         nearest = distance;
         memcpy(best, there, n * sizeof *best);
     }
@@ -411,7 +412,7 @@ static bool measure(struct resting *balance)
     state_evaluate(state);
     double size = equilibrium_size(state);
     /* A start in equilibrium has accelerations at round-off level only, which are no scale. */
-    balance->zero = fmax(1e-13 * size, 1e-15 * balance_size(state));
+    balance->zero = fmax(negligible_part * size, round_off(8, balance_size(state)));
     for (size_t i = 0; i < unknowns_of(balance); i++) balance->scale[i] = 1;
     for (size_t i = n; i < unknowns_of(balance); i++) {
         double rate = fabs(state->a[i]) + user_state_rate_size(state, (int)(i - n));

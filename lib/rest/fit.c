@@ -11,10 +11,10 @@
  * or the rounding of the position. */
 static double least_change(const struct fbd_state *state, int i, double length)
 {
-    const double digits = 1e-9, rounding = round_off(64, 1);
+    const double rounding = round_off(64, 1);
     int n = state->model->plan.n;
-    if (i >= n || state->model->scene->coordinates[i].angle) return digits * fmax(1, fabs(state->y[i]));
-    return digits * length + rounding * fabs(state->y[i]);
+    if (i >= n || state->model->scene->coordinates[i].angle) return nine_digits * fmax(1, fabs(state->y[i]));
+    return nine_digits * length + rounding * fabs(state->y[i]);
 }
 
 /* "rod.theta = -0.7, ...": list the components that have to change; false when all change by rounding only. */
@@ -31,7 +31,7 @@ static bool list_changes(struct text *text, const struct fbd_state *from, const 
         const struct coordinate *c = &model->scene->coordinates[i % n]; /* an island has no labels */
         text_printf(text, "%s%s.%s = ", listed > 1 ? ", " : "", model->bodies[c->body].name,
                     i < n ? c->name : c->rate_name);
-        text_number(text, fabs(to->y[i]) > 1e-3 * least ? to->y[i] : 0, 9);
+        text_number(text, fabs(to->y[i]) > least / 1000 ? to->y[i] : 0, 9);
     }
     if (listed > most_listed) text_add(text, ", ...");
     return listed > 0;
@@ -110,7 +110,7 @@ static double length_of(const struct fbd_state *state, const struct coupling *co
  * longer. */
 static void find_misses(struct fbd_state *state, struct miss *position, struct miss *velocity)
 {
-    const double digits = 2e-6; /* files have six digits */
+    const double digits = six_digits;
     const double rounding = round_off(64, 1);
     const struct tree *tree = state->model->tree;
     struct instant at = state_instant(state);
@@ -180,7 +180,7 @@ static bool pins_one_point(const struct fbd_state *state, const struct coupling 
 static void list_excluded(struct fbd_state *state, double length, struct text *lack)
 {
     enum { most_listed = 4 };
-    const double digits = 2e-6;
+    const double digits = six_digits;
     const struct tree *tree = state->model->tree;
     const struct coupling *off[most_listed];
     int count = 0;
@@ -259,7 +259,7 @@ static bool unclear_side(const struct fbd_state *state, int index, struct pos *a
 /* The point of a slot is beyond an end of it. */
 static bool beyond_end(const struct fbd_state *state, int index, struct pos *at, struct text *lack)
 {
-    const double digits = 1e-6;
+    const double digits = six_digits;
     const struct coupling *coupling = &state->model->tree->couplings[index];
     for (int end = 0; end < 2 && !slot_is_open(coupling, state->slip); end++) {
         struct room room = coupling_room(state->model, state->tree, index, end);
@@ -330,7 +330,7 @@ bool fit_lack(struct fbd_state *state, struct fbd_state *other, struct pos *at, 
 
 bool fit_unsolved(struct fbd_state *state, bool *masses, struct pos *at, struct text *lack)
 {
-    const double digits = 1e-6;
+    const double digits = six_digits;
     int row;
     if (state->model->tree->coupling_count == 0) return false;
     state_evaluate(state);

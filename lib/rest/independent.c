@@ -6,8 +6,9 @@
 
 #include "dynamics/project.h"
 #include "dynamics/tree.h"
+#include "numeric/tolerances.h"
 
-static const double least_pivot = 1e-7; /* of the sizes of coordinates; below is rounding */
+static const double least_pivot = distinct_part; /* of the sizes of coordinates; below is rounding */
 
 bool coordinate_is_driven(const struct fbd_model *model, size_t i)
 {
@@ -151,13 +152,12 @@ static int ascending(const void *left, const void *right)
 
 bool independent_choose(struct independent *independent, struct fbd_state *state)
 {
-    const double clear = 1e-6;
     size_t n = independent->n;
     double trace = 0;
     independent_share(state, independent->share);
     set_sizes(independent, state);
     for (size_t i = 0; i < n; i++) trace += independent->share[i * n + i];
-    if (!(fabs(trace - round(trace)) <= clear)) return false;
+    if (!(fabs(trace - round(trace)) <= distinct_part)) return false;
     independent->count = (size_t)lround(trace);
     for (size_t k = 0; k < independent->count; k++) {
         size_t row = choose_row(independent, k);

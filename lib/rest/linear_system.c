@@ -7,6 +7,7 @@
 
 #include "base/api_check.h"
 #include "numeric/lu.h"
+#include "numeric/tolerances.h"
 
 /* ---- one input, one output */
 
@@ -28,14 +29,13 @@ bool linear_system_siso(const struct fbd_linear_system *system, size_t input, si
 /* Is a square matrix singular to rounding? It is overwritten. */
 static bool is_singular(size_t n, double *matrix, size_t *pivot)
 {
-    const double round_off = 1e-14;
     double most = 0, least = INFINITY;
     if (!lu_decompose(n, matrix, pivot)) return true;
     for (size_t i = 0; i < n; i++) {
         most = fmax(most, fabs(matrix[i * n + i]));
         least = fmin(least, fabs(matrix[i * n + i]));
     }
-    return least <= round_off * most;
+    return least <= evaluation_rounding * most;
 }
 
 /* H has a pole at 0 where A is singular, and a zero there where [A, b; c, d] is. */
@@ -202,7 +202,7 @@ double *linear_system_frequencies(const struct fbd_linear_system *system, struct
     qsort(list, *count, sizeof *list, ascending);
     size_t kept = 1;
     for (size_t i = 1; i < *count; i++)
-        if (list[i] > list[kept - 1] * (1 + 1e-9)) list[kept++] = list[i];
+        if (list[i] > list[kept - 1] * (1 + undecided_part)) list[kept++] = list[i];
     *count = kept;
     return list;
 }

@@ -12,6 +12,7 @@
 #include "dynamics/project.h"
 #include "dynamics/tree_driven.h"
 #include "fbd_study.h"
+#include "numeric/tolerances.h"
 #include "rest/eigenvalues.h"
 #include "rest/equilibrium.h"
 #include "rest/independent.h"
@@ -85,7 +86,6 @@ static double size_of_forces(const struct fbd_state *state)
 /* Closed ropes and contacts must have positive forces; a constraint at its limit has no linear motion. */
 static bool refuse_limits(struct fbd_state *state, fbd_errors *errors)
 {
-    const double nothing = 1e-9;
     const struct fbd_model *model = state->model;
     const struct plan *plan = &model->plan;
     if (!is_coupled(model) || plan->mode_count == 0) return false;
@@ -100,7 +100,7 @@ static bool refuse_limits(struct fbd_state *state, fbd_errors *errors)
     for (int i = 0; i < (int)plan->mode_count; i++) {
         const struct mode *hold = &plan->modes[i];
         bool held = mode_is_one_sided(hold) && state->slip[i] == stick;
-        bool presses = !held || fabs(hold_row(state, hold)->lambda) > nothing * size;
+        bool presses = !held || fabs(hold_row(state, hold)->lambda) > undecided_part * size;
         if (before[i] != state->slip[i] || !presses || !settled) at_limit = i;
     }
     free(before);
@@ -227,12 +227,13 @@ static bool slopes_at(struct looking *looking, double *most)
  * smaller than at the start, and smaller than at a thousandth of the distance to it. */
 static void drop_dying_slopes(const struct looking *looking, fbd_errors *errors)
 {
-    const double died_out = 1e-4, of_beside = 0.1;
+    const double of_beside = 0.1;
     struct fbd_linearization *linear = looking->linear;
     size_t n = linear->count;
     for (size_t i = 0; i < n; i++) {
         double there = looking->there[i];
-        if (!(there < died_out * looking->before[i] && there < of_beside * looking->beside[i])) continue;
+        if (!(there < vanishing_slope * looking->before[i] && there < of_beside * looking->beside[i]))
+            continue;
         for (size_t j = 0; j < n; j++) linear->A[(n + i) * linear->size + j] = 0;
         linear->degenerate = true;
         diag_add(errors, FBD_WARNING, "degenerate-equilibrium", (struct pos){0, 0},
@@ -304,7 +305,6 @@ static void step_aside(const struct independent *independent, double little, dou
 /* The derivatives at the start, near the equilibrium, and at it, where the state stays. */
 static bool look_around(struct looking *looking)
 {
-    const double little = 1e-3; /* relative to the distance to the start */
     struct fbd_state *state = looking->state;
     double *q = looking->linear->q, *from = looking->origin;
     move_place(state, from, true);
@@ -312,9 +312,9 @@ static bool look_around(struct looking *looking)
     bool away = false;
     for (size_t i = 0; i < plan_rates(&state->model->plan); i++) {
         away |= from[i] != q[i];
-        from[i] = q[i] + little * (from[i] - q[i]);
+        from[i] = q[i] + near_equilibrium * (from[i] - q[i]);
     }
-    if (!away) step_aside(&looking->independent, little, from);
+    if (!away) step_aside(&looking->independent, near_equilibrium, from);
     move_place(state, from, true);
     bool regular = slopes_at(looking, looking->beside); /* else the rank differs nearby */
     move_place(state, q, true);

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "model/model.h"
+#include "numeric/tolerances.h"
 
 /* The point of a body at which forces act, and their sum. */
 struct node {
@@ -12,7 +13,7 @@ struct node {
 };
 
 /* Round-off level of forces and lengths, relative to the scales of the scene. */
-static const double rest_rounding = 1e-9;
+static const double rest_rounding = undecided_part;
 
 /* Add an arrow to the nodes; false if it is a couple, acts along a line, or needs a third node. */
 static bool add_arrow(const struct fbd_statics *statics, const struct arrow *arrow, struct node nodes[2],

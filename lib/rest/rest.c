@@ -12,6 +12,7 @@
 #include "dynamics/user_states.h"
 #include "expr/table.h"
 #include "fbd_study.h"
+#include "numeric/tolerances.h"
 #include "rest/balance.h"
 #include "rest/equilibrium.h"
 #include "rest/start.h"
@@ -55,7 +56,7 @@ bool statics_refuse_states(const struct fbd_state *state, fbd_errors *errors)
     const struct fbd_model *model = state->model;
     for (int i = 0; i < model->plan.own; i++) {
         double rate = state->a[model->plan.n + i];
-        if (fabs(rate) <= rest_digits * user_state_rate_size(state, i)) continue;
+        if (fabs(rate) <= six_digits * user_state_rate_size(state, i)) continue;
         diag_add(errors, FBD_ERROR, "not-at-rest", model->scene->own[i].rate.at,
                  "look where it rests (--settle), or give it an `initial` value at which its rate is zero",
                  "the state `%s` changes while all bodies are at rest, by %.6g %s: forces that depend on it "
@@ -120,7 +121,7 @@ static bool is_beyond_an_end(const struct fbd_state *state)
 
 bool equilibrium_holds(struct fbd_state *state)
 {
-    const double rounding = 1e-6, of_forces = 1e-9;
+    const double rounding = distinct_part;
     double most = 0;
     if (state->model->plan.kink_count == 0) return true;
     if (!modes_settle(state, NULL) || is_beyond_an_end(state)) return false;
@@ -129,7 +130,7 @@ bool equilibrium_holds(struct fbd_state *state)
         if (!(fabs(state->a[state->model->plan.n + i]) <= rounding * user_state_rate_size(state, i)))
             return false;
     if (most <= rounding * equilibrium_size(state)) return true;
-    return most <= of_forces * balance_size(state);
+    return most <= undecided_part * balance_size(state);
 }
 
 void equilibrium_refuse(fbd_errors *errors)
@@ -170,7 +171,8 @@ static bool find_equilibrium(fbd_state *state, fbd_errors *errors)
 /* Warn where the linear motion about the equilibrium grows. False when memory is out. */
 static bool warn_of_instability(const fbd_state *state, fbd_errors *errors)
 {
-    const double rounding = 1e-6; /* of the highest frequency: rounding splits a double eigenvalue zero */
+    const double rounding =
+        distinct_part; /* of the highest frequency: rounding splits a double eigenvalue zero */
     fbd_errors *refusals = fbd_errors_new(); /* of scenes that cannot be linearized; not reported */
     fbd_state *there = state_new(state->model);
     if (there) state_copy(there, state);

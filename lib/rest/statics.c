@@ -11,6 +11,7 @@
 #include "dynamics/nonfinite.h"
 #include "dynamics/project.h"
 #include "fbd_study.h"
+#include "numeric/tolerances.h"
 #include "rest/members.h"
 #include "rest/start.h"
 
@@ -119,7 +120,7 @@ static bool find_limits(struct fbd_statics *statics, const struct rest_system *s
         struct rest_limit limit = rest_limit_at(system, i);
         if (limit.kind != limit_normal && statics->state->slip[limit.index] != stick) continue;
         if (limit.kind != limit_normal && !rest_has_limit(&statics->model->plan.modes[limit.index])) continue;
-        double slack = 2e-9 * system->force;
+        double slack = 2 * rest_limit_slack(system);
         bool holds =
             limit.kind == limit_friction ? limit.needed <= limit.may + slack : limit.needed >= -slack;
         const char *name = name_limit(statics, &limit);
@@ -252,7 +253,7 @@ void fbd_statics_free(fbd_statics *statics)
 
 bool fbd_statics_holds(const fbd_statics *statics)
 {
-    return statics && statics->within_limits && statics->left <= rest_digits;
+    return statics && statics->within_limits && statics->left <= six_digits;
 }
 
 size_t fbd_statics_indeterminacy(const fbd_statics *statics)

@@ -65,9 +65,6 @@ bool statics_refuse_states(const struct fbd_state *state, fbd_errors *errors);
 /* The names of the reactions that equilibrium does not determine, into statics->undetermined. */
 bool rest_name_undetermined(struct fbd_statics *statics, const struct rest_system *system);
 
-/* Residual, relative to the largest load, that counts as equilibrium in a file with six digits. */
-static const double rest_digits = 2e-6;
-
 /* Store the possible motions, the residual along them, and the balancing forces in statics->unbalanced. */
 bool rest_find_unbalanced(struct fbd_statics *statics, const struct rest_system *system);
 

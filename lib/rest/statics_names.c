@@ -23,7 +23,7 @@ static bool varies(const struct rest_system *system, size_t i)
             sum += system->R[j * system->reactions + i] * system->basis[j * system->basis_count + k];
         most = fmax(most, fabs(sum));
     }
-    return most > 1e-8; /* of the change of all reactions together, 1 */
+    return most > pivoting_difference; /* of the change of all reactions together, 1 */
 }
 
 static void add_name(struct fbd_statics *statics, const char *body, const char *name, const char *part)
@@ -113,15 +113,12 @@ static void add_holding(struct fbd_statics *statics, const struct rest_system *s
         (fbd_unbalanced){label->name, label->force_unit, h / system->scale[k], alone};
 }
 
-/* Coordinates that move less than a thousandth of the others are not used for a balancing force. */
-static const double hardly = 1e-3;
-
 /* Free coordinates without couplings: each has its own balancing force. */
 static void hold_each(struct fbd_statics *statics, const struct rest_system *system)
 {
     for (size_t k = 0; k < system->n; k++) {
         double force = system->scale[k] * system->Q[k];
-        if (fabs(force) > rest_digits * system->force) add_holding(statics, system, k, -force, false);
+        if (fabs(force) > six_digits * system->force) add_holding(statics, system, k, -force, false);
     }
 }
 
@@ -135,7 +132,8 @@ static void hold_alone(struct fbd_statics *statics, const struct rest_system *sy
         most = fmax(most, fabs(motion[i]));
     }
     for (size_t i = 0; i < count; i++)
-        if (fabs(motion[i]) >= hardly * most) add_holding(statics, system, free[i], -work / motion[i], true);
+        if (fabs(motion[i]) >= balancing_motion * most)
+            add_holding(statics, system, free[i], -work / motion[i], true);
 }
 
 /* Several possible motions: as many coordinates, those of the basis of their columns. */
@@ -144,13 +142,13 @@ static bool hold_together(struct fbd_statics *statics, const struct rest_system 
 {
     double *work = ARENA_ARRAY(&statics->arena, d, double), *h = ARENA_ARRAY(&statics->arena, count, double);
     struct qr qr = {0};
-    bool made = work && h && qr_decompose(&qr, d, count, motions, singular_value_zero);
+    bool made = work && h && qr_decompose(&qr, d, count, motions, solved_rounding);
     for (size_t k = 0; made && k < d; k++)
         for (size_t i = 0; i < count; i++)
             work[k] -= motions[k * count + i] * system->scale[free[i]] * system->Q[free[i]];
     if (made) qr_add_solution(&qr, work, h);
     for (size_t c = 0; made && c < qr.rank; c++)
-        if (fabs(h[qr.column[c]]) > rest_digits * system->force)
+        if (fabs(h[qr.column[c]]) > six_digits * system->force)
             add_holding(statics, system, free[qr.column[c]], h[qr.column[c]], false);
     qr_free(&qr);
     return made;
@@ -169,7 +167,7 @@ bool rest_find_unbalanced(struct fbd_statics *statics, const struct rest_system 
     for (size_t k = 0; k < count; k++)
         statics->left = larger(statics->left, fabs(system->scale[free[k]] * system->Q[free[k]]) /
                                                   (system->force > 0 ? system->force : 1));
-    if (!(statics->left > rest_digits)) return true;
+    if (!(statics->left > six_digits)) return true;
     if (m == 0) {
         hold_each(statics, system);
         return true;
@@ -178,7 +176,7 @@ bool rest_find_unbalanced(struct fbd_statics *statics, const struct rest_system 
         for (size_t k = 0; k < count; k++) ET[j * count + k] = system->E[free[k] * m + j];
     struct qr qr;
     double *motions = ARENA_ARRAY(&statics->arena, count * count + 1, double);
-    bool made = motions && qr_decompose(&qr, m, count, ET, singular_value_zero);
+    bool made = motions && qr_decompose(&qr, m, count, ET, solved_rounding);
     if (!made) return false;
     qr_set_orthonormal_null(&qr, motions);
     if (count - qr.rank == 1) hold_alone(statics, system, free, count, motions);

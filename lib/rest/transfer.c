@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "numeric/lu.h"
+#include "numeric/tolerances.h"
 #include "rest/eigenvalues.h"
 
 static const double pi = 3.14159265358979324;
@@ -167,16 +168,15 @@ static void close_output(struct siso *system)
  * which it is an entry, and of a direct effect to that through the states; that of c to the matrix of which it is a row. */
 static double reduce_to_zeros(struct siso *system, double *w)
 {
-    const double round_off = 1e-13;
     double gain = 1, size_c = norm(system->c, system->size), least = 0;
     double size_A = norm(system->A, system->size * system->size);
     double size = size_A > 0 ? norm(system->b, system->size) * size_c / size_A : 0;
-    while (fabs(system->d) <= round_off * size) {
+    while (fabs(system->d) <= negligible_part * size) {
         if (system->size == 0 || size_c <= least) return 0;
         turn_output(system, w);
         gain *= system->c[system->size - 1];
         size = norm(system->b, system->size);
-        least = round_off * norm(system->A, system->size * system->size);
+        least = negligible_part * norm(system->A, system->size * system->size);
         remove_output(system);
         size_c = norm(system->c, system->size);
     }
@@ -257,8 +257,7 @@ bool siso_response(const struct siso *system, struct arena *arena, double omega,
 /* The phase of s - root; of the right half-plane that of root - s, whose sign is in `negative`. */
 static double factor_phase(fbd_complex root, double omega, bool *negative)
 {
-    const double round_off = 1e-12;
-    bool on_axis = fabs(root.re) <= round_off * fabs(root.im);
+    bool on_axis = fabs(root.re) <= negligible_sum * fabs(root.im);
     if (on_axis) return omega < root.im ? -pi / 2 : pi / 2;
     if (root.re < 0) return atan2(omega - root.im, -root.re);
     *negative = !*negative;
