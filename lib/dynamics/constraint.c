@@ -415,7 +415,7 @@ struct one_sided one_sided_at(const struct fbd_model *model, const struct instan
     double slow = round_off(64, fast);
     state.touches =
         fabs(state.excess) <= state.near && fabs(state.rate) <= solved_rounding * state.speed + slow;
-    state.parts = state.rate < -1e-6 * state.speed - slow;
-    state.meets = state.rate > 1e-6 * state.speed + slow;
+    state.parts = state.rate < -distinct_part * state.speed - slow;
+    state.meets = state.rate > distinct_part * state.speed + slow;
     return state;
 }

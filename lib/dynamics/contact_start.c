@@ -28,7 +28,6 @@ static const double run_share = 1e3;
  * which has no other point. */
 static void choose_side(const struct fbd_model *model, struct tree_work *work, int index)
 {
-    const double share = 1e-6;
     const struct meeting *meeting = &model->tree->meetings[index];
     const struct contact_shape *body = &meeting->shape[0], *line = &meeting->shape[1];
     if (line->kind != contact_line || work->kept) return;
@@ -39,7 +38,7 @@ static void choose_side(const struct fbd_model *model, struct tree_work *work, i
     struct vec mass = vec_sub(in_world(work, body->link, G), at);
     double side = vec_dot(n, middle);
     int told = model->scene->constraints[meeting->constraint].contact.side;
-    if (fabs(side) <= share * vec_norm(vec_sub(mass, middle))) side = vec_dot(n, mass);
+    if (fabs(side) <= six_digits * vec_norm(vec_sub(mass, middle))) side = vec_dot(n, mass);
     bool on = fabs(side) <= start_share * meeting_near(model, work, index);
     if (on) side = n.y >= 0 ? 1 : -1; /* a point on the line is above it */
     if (told != 0) side = told;

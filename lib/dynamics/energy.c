@@ -5,6 +5,7 @@
 #include "dynamics/tree.h"
 #include "expr/pieces.h"
 #include "numeric/quadrature.h"
+#include "numeric/tolerances.h"
 
 #include <string.h>
 
@@ -76,7 +77,6 @@ static double force_at(double q, void *context)
 static double integrate(struct integrand *integrand, double from, double to)
 {
     enum { most_halves = 2000, most_pieces = 1000 };
-    const double known = 1e-9;
     const struct model_load *load = integrand->load;
     const struct expr *formulas[4],
         *all[] = {load->value.expr, load->angle.expr, load->fx.expr, load->fy.expr};
@@ -90,7 +90,7 @@ static double integrate(struct integrand *integrand, double from, double to)
     if (pieces == pieces_too_many) ends[1] = to;
     gsl_function function = {force_at, integrand};
     struct quadrature sum = quadrature_over(&function, ends, pieces > 0 ? pieces : 1, most_halves);
-    return sum.error <= known * sum.size ? sum.integral : (double)NAN;
+    return sum.error <= undecided_part * sum.size ? sum.integral : (double)NAN;
 }
 
 static double by_quadrature(const struct fbd_model *model, const struct model_load *load,

@@ -147,8 +147,7 @@ double friction_rounding_of_time(const struct friction_values *now, const struct
 
 double friction_return(const struct friction_values *now)
 {
-    const double errors = 1e-6;
-    return now->limit_kinetic == 0 ? errors * now->limit_static : 0;
+    return now->limit_kinetic == 0 ? distinct_part * now->limit_static : 0;
 }
 
 enum slip friction_decide(const struct friction_values *now, const struct friction_values *rate, double slack)

@@ -33,7 +33,6 @@
  * acceleration is still rounding, which would choose the branches of expressions in its speed at random. */
 static void lean(const struct fbd_state *state, double *dy)
 {
-    const double little = 1e-9;
     const struct fbd_model *model = state->model;
     const struct plan *plan = &model->plan;
     struct instant at = state_instant(state);
@@ -47,7 +46,7 @@ static void lean(const struct fbd_state *state, double *dy)
         force_balance(model, &at, slots);
         double limit =
             mode->kind == mode_joint ? 0 : friction_at(model, pair, &at, slots).limit / mode->inertia;
-        double least = little * fmax(fmax(fabs(*a), fabs(surface)), limit);
+        double least = undecided_part * fmax(fmax(fabs(*a), fabs(surface)), limit);
         if (fabs(*a - surface) <= least) *a = surface + slip_side(state->slip[pair]) * least;
     }
 }

@@ -200,12 +200,10 @@ static void refactor(const struct place *place, double damping)
 
 enum { most_steps = 60 };
 
-static const double least_damping = 1e-13;
-
 /* Decreasing with the misfit: a light coupler between heavy bodies has slopes that differ by their masses. */
 static double start_damping(const struct place *place, double misfit)
 {
-    return fmin(1e-6, fmax(least_damping, 1e-6 * misfit / arm_length(place)));
+    return fmin(projection_damping, fmax(negligible_part, projection_damping * misfit / arm_length(place)));
 }
 
 /* The largest speed of the links, including rotation at the ends of the arms of rows. */
@@ -222,7 +220,6 @@ static double speed_of(const struct place *place)
 /* Is the state at rest, with accelerations beyond the rounding of its forces, at an arm? */
 static bool sets_out(const struct fbd_state *state, double arm)
 {
-    const double rounding = 1e-6;
     const struct tree *tree = state->model->tree;
     double a = 0, force = 0, lightest = DBL_MAX;
     for (int i = 0; i < state->model->plan.n; i++)
@@ -239,7 +236,7 @@ static bool sets_out(const struct fbd_state *state, double arm)
         for (int k = 0; k < row->port_count; k++)
             force = fmax(force, fabs(row->lambda) * vec_norm(row->ports[k].force));
     }
-    return a * lightest > rounding * force;
+    return a * lightest > distinct_part * force;
 }
 
 static bool has_redundant_row(const struct fbd_state *state)
@@ -257,7 +254,7 @@ static bool has_redundant_row(const struct fbd_state *state)
  * the friction under its corner along one line, and leaves it. */
 int state_locked_row(const struct fbd_state *state, struct fbd_state *other)
 {
-    const double T = 1e3, rounding = 1e-6;
+    const double T = 1e3;
     if (!has_couplings(state->model) || !has_redundant_row(state)) return -1;
     const struct tree *tree = state->model->tree;
     const struct instant at = state_instant(state);
@@ -269,7 +266,7 @@ int state_locked_row(const struct fbd_state *state, struct fbd_state *other)
     if (!(arm > 0) || !sets_out(state, arm)) return -1;
     for (int i = 0; i < n; i++) other->y[n + i] = T * state->a[i];
     state_evaluate_unshared(other);
-    double speed = speed_of(&place), most = rounding * speed * speed / arm;
+    double speed = speed_of(&place), most = distinct_part * speed * speed / arm;
     for (int j = 0; j < tree->row_count; j++) {
         double miss = fabs(other->tree->rows[j].g.x2);
         bool touches = tree->couplings[tree->coupling_of_row[j]].meeting >= 0;
@@ -298,7 +295,7 @@ static void project_velocity(const struct place *place)
     for (int pass = 0; pass < 2; pass++) {
         prepare(place);
         if (misfit_of(place).velocity == 0) break;
-        factor(place, least_damping);
+        factor(place, negligible_part);
         move(place, true, 1);
     }
     prepare(place);

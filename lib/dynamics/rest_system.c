@@ -37,7 +37,7 @@ static bool find_sizes(struct rest_system *system)
     if (system->length == 0) system->length = 1;
     system->force = fmax(system->force, couple / system->length);
     /* Where all loads vanish, as at the neutral position of a spring: a millionth of the weights. */
-    system->force = fmax(system->force, 1e-6 * heaviest * vec_norm(model->scene->gravity));
+    system->force = fmax(system->force, distinct_part * heaviest * vec_norm(model->scene->gravity));
     return arrows != NULL;
 }
 

@@ -137,9 +137,8 @@ static bool choose(struct question *q, const struct decided *decided, int choice
 
 static bool same_accelerations(const struct question *q, const double *a)
 {
-    const double rounding = 1e-8;
     for (int i = 0; i < q->state->model->plan.n; i++)
-        if (fabs(q->state->a[i] - a[i]) > rounding * q->most) return false;
+        if (fabs(q->state->a[i] - a[i]) > pivoting_difference * q->most) return false;
     return true;
 }
 

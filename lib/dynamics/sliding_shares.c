@@ -310,7 +310,7 @@ void sliding_solve(const struct fbd_model *model, const struct instant *at)
             largest = fmax(largest, fabs(s->c[k]));
         }
         set_shares(s);
-        if (!(largest > 1e-15)) return;
+        if (!(largest > round_off(4, 1))) return;
         if (step > 0 && largest < evaluation_rounding) return;
     }
 }

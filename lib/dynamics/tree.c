@@ -14,6 +14,7 @@
 #include "dynamics/plane_friction.h"
 #include "dynamics/tree_bare.h"
 #include "dynamics/tree_system.h"
+#include "numeric/tolerances.h"
 
 /* ---- memory */
 
@@ -135,8 +136,8 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
         work->loops = loops;
         closed_loops_init(loops, model, loops + 1);
     }
-    work->damping = 1e-6;
-    work->accuracy = 1e-10;
+    work->damping = projection_damping;
+    work->accuracy = solved_rounding;
     work->links[0].turn = work->links[0].e = (struct vec){1, 0};
     for (int i = 1; i < tree->count; i++) {
         struct tree_state *s = &work->links[i];
@@ -287,7 +288,7 @@ static void set_borne(const struct tree *tree, struct tree_work *work)
  * with the square of the number, times the acceleration by one force. */
 static void drop_rounding(const struct tree *tree, struct tree_work *work, double *a)
 {
-    double count = tree->count, rounding = 64 * count * DBL_EPSILON, sums = count * count * DBL_EPSILON;
+    const double count = tree->count, rounding = round_off(64, count), sums = round_off(count, count);
     set_borne(tree, work);
     for (int i = 1; i < tree->count; i++) {
         const struct tree_link *link = &tree->links[i];

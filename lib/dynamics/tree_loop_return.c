@@ -8,6 +8,7 @@
 
 #include "base/sine.h"
 #include "dynamics/tree_loop.h"
+#include "numeric/tolerances.h"
 
 /* The loop at y: its vectors, the coupling inertias, the free motion N with K = M N, and the error of the
  * pin. */
@@ -128,7 +129,7 @@ static bool close_gap(const struct tree_loop *loop, double *q, struct look *at)
     for (int k = 0; k < most; k++) {
         double off = largest(at->gap);
         if (!(at->norm > loop->least && at->inertia > 1e-2 * at->norm && off <= far)) return false;
-        if (off <= 16 * DBL_EPSILON * size || off > 0.9 * before) return off <= 1e3 * DBL_EPSILON * size;
+        if (off <= round_off(16, size) || off > 0.9 * before) return off <= round_off(1000, size);
         mend(loop, at, at->gap, q);
         before = off;
         look_at(loop, q, true, at);

@@ -12,6 +12,7 @@
 #include <math.h>
 
 #include "dynamics/tree_system.h"
+#include "numeric/tolerances.h"
 
 /* A movable joint at a port, or below: the generalized forces of a unit force of the row, and the inverse
  * inertias. */
@@ -64,7 +65,6 @@ static void add_taken(const struct tree *tree, const struct tree_work *work, con
 static void spread_taken(const struct tree *tree, const struct tree_work *work, const struct row *row,
                          double *taken)
 {
-    const double hardly = 1e-6;
     struct lever levers[2 * most_constraint_ends];
     double most = 0, whole = 0;
     for (int p = 0; p < row->port_count; p++) {
@@ -77,7 +77,7 @@ static void spread_taken(const struct tree *tree, const struct tree_work *work, 
     }
     for (int p = 0; p < row->port_count; p++) {
         double answer = answer_of(&levers[p]);
-        for (int k = 0; k < levers[p].count && answer > hardly * whole; k++) {
+        for (int k = 0; k < levers[p].count && answer > distinct_part * whole; k++) {
             double *own = &taken[levers[p].first + k];
             *own = fmax(*own, most * levers[p].gain[k] * levers[p].inverse[k] / answer);
         }
@@ -107,7 +107,7 @@ const double *tree_rounding(const struct fbd_model *model, const struct instant 
         for (int k = 0; k < row->port_count; k++) add_taken(tree, work, &row->ports[k], size, work->taken);
     }
     spread(tree, at);
-    for (int i = 0; i < n; i++) work->taken[i] *= 8 * tree->count * DBL_EPSILON;
+    for (int i = 0; i < n; i++) work->taken[i] *= round_off(8, tree->count);
     return work->taken;
 }
 

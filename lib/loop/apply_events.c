@@ -341,10 +341,9 @@ static void refuse_sliding(struct run *run, const bool *moving)
 static void count_crowd(struct run *run)
 {
     enum { most_at_once = 200 };
-    const double instant = 1e-12;
     run->step.longest = fmax(run->step.longest, run->state->t - run->step.from);
     bool crowded = run->state->t - run->recent.time <= run_instant(run) ||
-                   fabs(run->state->t) <= instant * run->step.first;
+                   fabs(run->state->t) <= negligible_sum * run->step.first;
     run->recent.crowd = crowded ? run->recent.crowd + 1 : 0;
     if (!crowded) run->recent.turns = 0;
     run->recent.time = run->state->t;
@@ -358,7 +357,7 @@ static void count_crowd(struct run *run)
 static void count_around(struct run *run)
 {
     enum { most_around = 100000 };
-    const double place = 1e-6, speed = 1e-3;
+    const double place = distinct_part, speed = 1e-3;
     size_t n = (size_t)run->model->plan.n, size = plan_size(&run->model->plan);
     double *anchor = run->recent.anchor;
     const double *most = anchor + size;

@@ -26,7 +26,7 @@ static bool is_like(const struct fbd_model *model, const struct run_options *opt
  * rounding is the limit, only the different step sizes matter: they give independent rounding. */
 static double tolerance_for(const struct fbd_model *model, const struct run_options *options)
 {
-    const double fixed = 1e-13, least = 1e-14, other = 4e-14, most = 2e-6;
+    const double fixed = negligible_part, least = evaluation_rounding, other = 4e-14, most = 2e-6;
     if (options->step > 0) return fixed;
     double share = is_like(model, options) ? 0.2 : 0.02;
     if (options->method->implicit && options->method->order > method_for(model)->order) return fixed;
@@ -318,9 +318,8 @@ static size_t next_alike(const struct ensemble *run, const struct run_event *eve
 /* The time of an event at the very end of a run is exact to rounding; the other run may end before it. */
 static double error_at_the_end(const struct companion *companion, double t)
 {
-    const double near = 1e-9;
     double until = companion->ensemble->options.until;
-    return until - t <= near * until ? until - t + round_off(4, until) : HUGE_VAL;
+    return until - t <= undecided_part * until ? until - t + round_off(4, until) : HUGE_VAL;
 }
 
 void companion_event_errors(const struct companion *companion, const struct ensemble *main, double *errors)

@@ -127,8 +127,7 @@ static bool bends(struct run *run, int index, const struct look *a, const struct
 
 static double bend_between(struct run *run, int index, int probe, struct look a, struct look b)
 {
-    const double share = 1e-6;
-    double least = fmax(share * (b.t - a.t), round_off(4, fabs(b.t)));
+    double least = fmax(distinct_part * (b.t - a.t), round_off(4, fabs(b.t)));
     while (b.t - a.t > least) {
         struct look middle = look_at(run, index, probe, a.t + (b.t - a.t) / 2);
         if (bends(run, index, &a, &middle))
@@ -149,7 +148,7 @@ static bool may_dip(const struct look *a, const struct look *b)
  * none. */
 static double dip_between(struct run *run, int index, int probe, struct look a, struct look b)
 {
-    const double share = 1e-6, end = b.t;
+    const double share = distinct_part, end = b.t;
     double least = fmax(share * (b.t - a.t), round_off(4, fabs(b.t)));
     while (b.t - a.t > least && !stays_apart(&a, &b)) {
         struct look middle = look_at(run, index, probe, a.t + (b.t - a.t) / 2);

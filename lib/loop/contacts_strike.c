@@ -272,7 +272,7 @@ static void drop_rounding(struct run *run, int count)
     const struct tree *tree = tree_of(run);
     double given = 0, *rates = run->state->y + run->model->plan.n;
     for (int k = 1; k < tree->joined; k++) given = fmax(given, given_to(run, count, &tree->links[k]));
-    double least = (double)count * count * DBL_EPSILON * given;
+    double least = round_off((double)count * count, given);
     for (int k = 1; k < tree->joined; k++) {
         const struct tree_link *link = &tree->links[k];
         if (given_to(run, count, link) == 0) continue;

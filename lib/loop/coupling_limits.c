@@ -178,7 +178,7 @@ static void watch_piece(const struct end *piece, struct time_dd *t)
     struct run *run = piece->run;
     const struct coupling *coupling = coupling_of(piece);
     const bool at_rim = coupling->end[piece->end].radius > 0 || coupling->end[piece->end + 1].radius > 0;
-    const double little = coupling->reels ? 1e-3 : at_rim ? 1e-6 : 1e-9;
+    const double little = coupling->reels ? 1e-3 : at_rim ? distinct_part : undecided_part;
     double when = shortest_at(piece, little, t->t);
     struct room room = room_at(piece, when);
     if (room.left > little * room.size || room.rate > 0) { /* NAN is beyond */

@@ -10,13 +10,14 @@
 #include "dynamics/tree.h"
 #include "loop/ensemble.h"
 #include "loop/run.h"
+#include "numeric/tolerances.h"
 
 double energy_explained(double tolerance, double steps, double in_motion, double terms)
 {
     /* Runs of few steps are allowed a hundred; tolerances below their rounding are raised. Measured over the
      * gallery, by methods from 1e-4 to 1e-10: residuals are up to a half of this by msadams with a bouncing
      * ball, and up to an eighth elsewhere. */
-    const double least_steps = 100, least_tolerance = 1e-13, tolerances = 4, roundings = 1e-11;
+    const double least_steps = 100, least_tolerance = negligible_part, tolerances = 4, roundings = 1e-11;
     return tolerances * (steps + least_steps) * fmax(tolerance, least_tolerance) * in_motion +
            roundings * terms;
 }
@@ -118,8 +119,7 @@ struct energy_balance run_energy_balance(struct run *run)
     if (!(fabs(balance.residual) > balance.explained)) return balance;
     run_evaluate(run);
     struct rounded rounded = rounded_at(run->state);
-    double past = run->state->t - guard->t,
-           nothing = DBL_EPSILON * rounded.ways * past * past / fmax(steps, 1);
+    double past = run->state->t - guard->t, nothing = round_off(rounded.ways, past * past) / fmax(steps, 1);
     balance.explained =
         energy_explained(run->options.tolerance, steps, moving, moving + terms + rounded.places) + nothing;
     return balance;

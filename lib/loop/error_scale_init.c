@@ -171,7 +171,7 @@ static double unseen_place(const struct run *run, const struct model_body *body,
     double reach = 0;
     for (int i = 1; i < run->model->tree->joined; i++)
         reach = fmax(reach, vec_norm(run->state->tree->links[i].p));
-    return DBL_EPSILON / run->options.tolerance * (coordinate_is_angle(body, k) ? 1 : reach);
+    return round_off(1, 1) / run->options.tolerance * (coordinate_is_angle(body, k) ? 1 : reach);
 }
 
 /* A coordinate or rate that is exactly zero has no scale for its error, and a method of low order needs one

@@ -231,7 +231,7 @@ static void move(struct run *run, double time)
 static bool go_back(struct run *run, double *back)
 {
     enum { most_steps = 5 };
-    const double instant = 64 * DBL_EPSILON * fmax(fabs(run->state->t), run->step.longest);
+    const double instant = round_off(64, fmax(fabs(run->state->t), run->step.longest));
     const double *values = run->work.values, *rates = values + run->search.moving.count;
     bool any = false;
     evaluate(run);
@@ -249,7 +249,7 @@ static bool go_back(struct run *run, double *back)
         evaluate(run);
         for (size_t i = 0; i < run->search.moving.count; i++)
             if (run->search.moving.crossed[i] && rates[i] < 0) next = fmin(next, values[i] / rates[i]);
-        since = fabs(next) < HUGE_VAL && fabs(next) > DBL_EPSILON * fabs(run->state->t) ? next : 0;
+        since = fabs(next) < HUGE_VAL && fabs(next) > round_off(1, fabs(run->state->t)) ? next : 0;
     }
     return any;
 }

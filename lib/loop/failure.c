@@ -8,6 +8,7 @@
 
 #include "base/format.h"
 #include "loop/run.h"
+#include "numeric/tolerances.h"
 #include "rest/fit.h"
 #include "rest/start.h"
 
@@ -33,7 +34,7 @@ double run_time(const struct run *run)
 
 double run_instant(const struct run *run)
 {
-    const double instant = 1e-12, steps = 1e6;
+    const double instant = negligible_sum, steps = 1e6;
     return instant * fmax(fabs(run->state->t), fmin(run->options.until, steps * run->step.longest));
 }
 
@@ -71,7 +72,7 @@ static size_t fastest(const struct run *run)
  * there. */
 static bool explain_blocked_rope(struct run *run)
 {
-    const double ahead = 1e-6 * fmin(run->options.until, fabs(run->state->t));
+    const double ahead = distinct_part * fmin(run->options.until, fabs(run->state->t));
     size_t n = (size_t)run->model->plan.n;
     struct fbd_state *next = state_new(run->model);
     struct text why = {0};

@@ -62,8 +62,7 @@ static bool asks_forces(const struct run *run)
  * would be left out for so long that the mechanism drifts from its couplings or loses energy. */
 static double projected_accuracy(const struct run_options *options)
 {
-    const double least = 1e-10;
-    return fmax(options->tolerance, least);
+    return fmax(options->tolerance, solved_rounding);
 }
 
 static bool make_linear(struct run *run)

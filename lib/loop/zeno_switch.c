@@ -91,7 +91,7 @@ void zeno_switch_end(struct run *run)
 
 void zeno_switch_blunt(struct run *run, int branch)
 {
-    const double first = 1e-9, more = 100, most = 1e-5;
+    const double first = undecided_part, more = 100, most = 1e-5;
     struct sliding *s = run->state->sliding;
     const struct leave *left = &run->zeno_switches.list[branch].left;
     if (!(run->state->t - left->t <= run_instant(run))) return;

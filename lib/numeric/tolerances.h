@@ -77,6 +77,10 @@ static const double balancing_motion = 1e-3;
 
 /* ---- linear algebra */
 
+/* Damping of a projection onto the couplings, relative to the responses: rows that depend on others but for less than this are
+ * left out. */
+static const double projection_damping = 1e-6;
+
 /* Pivoting: equations that depend on others, and inequalities that are violated, relative to the largest; accelerations
  * have ten times that by the equations that were left out, `solved_rounding`. Accelerations of two solutions that differ. */
 static const double pivoting_zero = 1e-11, pivoting_difference = 1e-8;
