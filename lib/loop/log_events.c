@@ -26,8 +26,8 @@ static double left_beyond(const struct run *run, int pair)
 static void note_one_sided(struct run *run, const struct change *change)
 {
     const struct mode *mode = &run->model->plan.modes[change->pair];
-    if (mode_has_ended(run->state, change->pair)) return;
-    if (mode_has_ended(run->during, change->pair)) return; /* it begins, which has an event of its own */
+    /* The begin and the end of a coupling have events of their own. */
+    if (mode_has_ended(run->state, change->pair) || mode_has_ended(run->during, change->pair)) return;
     run->watchers.quiet[change->pair] = left_beyond(run, change->pair);
     bool rope = run->model->tree->couplings[mode->coupling].law->way;
     if (change->before == stick && change->after != stick)

@@ -92,22 +92,18 @@ fbd_stats fbd_simulation_stats(const fbd_simulation *simulation)
     if (!simulation) return (fbd_stats){.method = "", .error_estimate = NAN};
     struct ensemble *ensemble = simulation->ensemble;
     const struct run_options *options = &ensemble->options;
-    fbd_stats stats = {.method = options_method(options),
-                       .tolerance = options->tolerance,
-                       .events = ensemble->event_count,
-                       .seconds = simulation->seconds,
-                       .groups = ensemble->count,
-                       .error_estimate = NAN,
-                       .accuracy = simulation->accuracy,
-                       .runs = simulation->runs,
-                       .seconds_spent = simulation->seconds_spent};
+    fbd_stats stats = simulation->past.cost;
+    stats.method = options_method(options);
+    stats.tolerance = options->tolerance;
+    stats.events = ensemble->event_count;
+    stats.seconds = simulation->seconds;
+    stats.groups = ensemble->count;
+    stats.linear = stats.constant = stats.velocity_free = 0; /* of the groups that there are now */
+    stats.error_estimate = NAN;
+    stats.accuracy = simulation->accuracy;
+    stats.runs = simulation->runs;
+    stats.seconds_spent = simulation->seconds_spent;
     stats_add(&stats, ensemble);
-    stats.steps += simulation->past.cost.steps;
-    stats.stiff_steps += simulation->past.cost.stiff_steps;
-    stats.rhs += simulation->past.cost.rhs;
-    stats.jacobians += simulation->past.cost.jacobians;
-    stats.event_samples += simulation->past.cost.event_samples;
-    stats.rejected += simulation->past.cost.rejected;
     if (simulation->bars) {
         const struct companion *companion = simulation->bars->companion;
         if (ensemble->outcome != FBD_GOING) bars_catch_up(simulation->bars, ensemble);

@@ -11,7 +11,6 @@
 #include "record/ledger.h"
 #include "record/numbers.h"
 
-/* The simulation of the public interface: a run of all groups, its error bars, and its cost. */
 /* The parts of a simulation before its inputs were last set (fbd_simulation_set_input). */
 struct past_parts {
     size_t parts;
@@ -19,6 +18,7 @@ struct past_parts {
     struct energy_balance balance; /* the one with the largest ratio */
 };
 
+/* The simulation of the public interface: a run of all groups, its error bars, and its cost. */
 struct fbd_simulation {
     struct ensemble *ensemble;
     struct bars *bars; /* NULL without error bars */
