@@ -198,6 +198,7 @@ struct run {
     struct energy_guard energy;
     double liveliest; /* the largest kinetic energy of jointed bodies so far */
     struct event_log log;
+    unsigned long events; /* steps that ended in events */
     struct recent recent;
     struct run_work work;
 };
