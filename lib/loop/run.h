@@ -259,10 +259,12 @@ static inline struct time_dd run_end(const struct run *run)
     return state_moment(run->state);
 }
 
-/* Is the force of a load constant over the last step? Where it is, its work between two times of the step is their
- * difference times its power in the mean state: the mean positions, and the mean velocities, by the displacements. */
+/* Is the force of a load constant over the last step, or linear in time and all velocities constant? Then its work
+ * between two times of the step is their difference times its power in the mean state: the mean positions, and the mean
+ * velocities, by the displacements; `forces`: with its forces. */
 bool run_keeps_force(const struct run *run, size_t load);
-bool run_look_mean(struct run *run, struct time_dd from, struct time_dd to, struct fbd_state *state);
+bool run_look_mean(struct run *run, struct time_dd from, struct time_dd to, bool forces,
+                   struct fbd_state *state);
 
 /* Number of panels of the last step for Gauss's rule with five points, such that the error of an integral of
  * powers is below that of the motion. For linear systems each panel is half a radian, or a decay by
