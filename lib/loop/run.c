@@ -227,22 +227,6 @@ void run_free(struct run *run)
 
 /* ---- one turn of the loop */
 
-/* Constant accelerations are those of the state, which has been evaluated; the others are evaluated by the stepper. */
-static int start_stepper(struct run *run)
-{
-    const struct time_dd until = time_dd_at(run->options.until);
-    double probe = 0;
-    if (run->flies || run->kind == structure_constant) {
-        state_flow(run->state, run->work.f);
-        for (size_t i = 0; i < plan_size(&run->model->plan); i++) probe += 0 * run->work.f[i];
-        if (probe == 0)
-            return switcher_restart(run->stepper, run_end(run), run->work.y, run->work.f, until,
-                                    &run->step.h);
-    }
-    return switcher_reset(run->stepper, &run->system, run_end(run), run->work.y, run->work.f, until,
-                          &run->step.h);
-}
-
 /* Start the stepper at the present state. */
 static bool restart(struct run *run)
 {
@@ -256,7 +240,7 @@ static bool restart(struct run *run)
     run_choose_method(run);
     if (!run_is_exact(run)) roundoff_estimate(run);
     watchers_follow(&run->watchers, run->during);
-    int status = start_stepper(run);
+    int status = run_start_stepper(run);
     if (status != GSL_SUCCESS) {
         run_fail_step(run, stepper_bad_function);
         return false;

@@ -274,11 +274,13 @@ int run_panels(const struct run *run);
 /* ---- internal to the loop */
 
 /* The method (run_method.c): whether it follows from the structure; its steppers, false when memory is out; that of the
- * present modes; of a linear system its matrices, false when the run has failed; the size of the next step where the
+ * present modes; the start of its stepper, with the slopes (constant accelerations are those of the state; a code of GSL);
+ * of a linear system its matrices, false when the run has failed; the size of the next step where the
  * method has no error estimate; and how far the next step without a closed contact may reach. */
 bool run_chooses_structure(const struct run *run);
 bool run_make_stepper(struct run *run);
 void run_choose_method(struct run *run);
+int run_start_stepper(struct run *run);
 bool run_start_linear(struct run *run);
 void run_limit_method(struct run *run);
 void run_limit_flight(struct run *run);
