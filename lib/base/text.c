@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdarg.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -118,10 +119,28 @@ static void json_escape(struct text *text, unsigned code)
                     0xDC00 + ((code - first) & 0x3FF));
 }
 
+static const uint64_t each_byte = UINT64_C(0x0101010101010101);
+
+/* The highest bit of each byte of `word` that is zero, and perhaps of later ones. */
+static uint64_t zero_bytes(uint64_t word)
+{
+    return (word - each_byte) & ~word & (each_byte << 7);
+}
+
+/* Are eight bytes ASCII without escapes? It may be false even if they are. */
+static bool are_plain(const char *bytes)
+{
+    uint64_t word;
+    memcpy(&word, bytes, sizeof word);
+    uint64_t other = (word | (word + each_byte) | (word - each_byte * ' ')) & (each_byte << 7);
+    return (other | zero_bytes(word ^ each_byte * '"') | zero_bytes(word ^ each_byte * '\\')) == 0;
+}
+
 /* The length of the beginning of `string` that is ASCII without escapes. */
 static size_t json_plain(const char *string)
 {
-    const char *end = string;
+    const char *end = string, *last = string + strlen(string);
+    while (last - end >= (ptrdiff_t)sizeof(uint64_t) && are_plain(end)) end += sizeof(uint64_t);
     while (*end >= ' ' && *end <= '~' && *end != '"' && *end != '\\') end++;
     return (size_t)(end - string);
 }

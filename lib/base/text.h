@@ -7,6 +7,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <string.h>
 
 struct text {
     char *data; /* zero-terminated once anything was added */
@@ -20,6 +21,19 @@ bool text_reserve(struct text *text, size_t more);
 
 void text_add(struct text *text, const char *string);
 void text_add_bytes(struct text *text, const char *bytes, size_t length);
+
+/* text_add of a literal, in place: for texts that are written many times. */
+static inline __attribute__((always_inline)) void text_literal(struct text *text, const char *literal)
+{
+    const size_t length = strlen(literal);
+    if (text->failed || text->capacity - text->length <= length) {
+        text_add_bytes(text, literal, length);
+        return;
+    }
+    memcpy(text->data + text->length, literal, length + 1);
+    text->length += length;
+}
+
 void text_printf(struct text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Append external text (a title, an expression, a path) with control characters escaped: base/utf8.h. */

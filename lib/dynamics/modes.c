@@ -160,9 +160,10 @@ static bool has_singles(const struct fbd_model *model)
     return false;
 }
 
-/* `jointly`: constraints have been decided together, or reactions are indeterminate. */
+/* `evaluated`: the forces of the state are those of its branches. `jointly`: constraints have been decided together, or
+ * reactions are indeterminate. */
 static bool settle_slips(struct fbd_state *state, const struct decided *decided, const struct direction *flow,
-                         bool *jointly)
+                         bool evaluated, bool *jointly)
 {
     const struct fbd_model *model = state->model;
     const struct plan *plan = &model->plan;
@@ -172,7 +173,10 @@ static bool settle_slips(struct fbd_state *state, const struct decided *decided,
     bool same = true;
     if (at.sliding) sliding_solve_along(model, &at, flow);
     if (has_singles(model)) {
-        force_balance(model, &at, scratch.slots);
+        if (evaluated && !at.sliding && !tree_joins(model->tree))
+            memcpy(scratch.slots, state->slots, (size_t)plan->slots * sizeof *scratch.slots);
+        else
+            force_balance(model, &at, scratch.slots);
         force_balance_along(model, &at, flow, scratch.slots, scratch.slots_along);
     }
     for (int pair = 0; pair < (int)plan->mode_count; pair++) {
@@ -204,7 +208,7 @@ static bool settle(struct fbd_state *state, const struct decided *decided)
         if (plan->kink_count + plan->mode_count == 0) return state->holds.found < holds_none;
         struct direction flow = flow_of(state);
         bool same = settle_branches(state, decided, &flow, pass >= around), jointly = false;
-        if (plan->mode_count > 0) same = settle_slips(state, decided, &flow, &jointly) && same;
+        if (plan->mode_count > 0) same = settle_slips(state, decided, &flow, same, &jointly) && same;
         if (state->holds.found >= holds_none) return false;
         bool final = !jointly && !state->sliding;
         if (same && (!first || final)) {

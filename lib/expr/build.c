@@ -354,6 +354,12 @@ static struct expr *finish_constant(const struct builder *b, struct expr *expr, 
     return expr;
 }
 
+static size_t find_last_switch(const struct instr *code, size_t operations)
+{
+    while (operations > 0 && !op_is_switch(code[operations - 1].op)) operations--;
+    return operations > 0 ? operations - 1 : 0;
+}
+
 struct expr *build_finish(struct builder *b, struct arena *arena, const struct operand *result)
 {
     unsigned short root = name_register(b, result);
@@ -388,6 +394,7 @@ struct expr *build_finish(struct builder *b, struct arena *arena, const struct o
                           .constant_rest = rests,
                           .result = locate(b, sorted, root),
                           .switches = b->switch_count,
+                          .last_switch = find_last_switch(code, b->operations),
                           .switch_at = switches,
                           .dim = result->kind.dim,
                           .bare = result->kind.free};

@@ -146,18 +146,19 @@ static void step_motion(const struct instr *i, const int *branch, struct motion 
     m->error[i->to] = isfinite(error) ? error + own : own;
 }
 
+/* Up to the last switch: no later operation is of effect on one. */
 static void run(const struct expr *expr, const int *branch, struct motion *m, visit *visit_switch,
                 void *context)
 {
-    const struct instr *end = expr->code + expr->operations;
-    for (const struct instr *i = expr->code; i < end; i++) {
+    const struct instr *last = expr->code + expr->last_switch;
+    for (const struct instr *i = expr->code; i <= last; i++) {
         if (i->op == op_jump) {
             i += i->extra;
         } else if (i->op == op_jump_unless) {
             i += m->value[i->a] == 0 ? i->extra : 0;
         } else {
             if (op_is_switch(i->op)) visit_switch(context, i, m, crossing_at(i, branch, m));
-            step_motion(i, branch, m);
+            if (i < last) step_motion(i, branch, m);
         }
     }
 }
@@ -235,6 +236,7 @@ static void note_switching(void *context, const struct instr *i, const struct mo
 void expr_switchings(const struct expr *expr, double t, const double *y, double dt, const double *dy,
                      const int *branch, double *u, double *rates, double *rounding)
 {
+    if (!expr->switches) return;
     struct motion motion;
     struct switchings context = {u, rates, rounding};
     for (size_t k = 0; k < expr->switches; k++) u[k] = rates[k] = rounding[k] = (double)NAN;
@@ -326,10 +328,17 @@ static void choose_branch(void *context, const struct instr *i, const struct mot
     if (i->op == op_levels) *branch = (int)levels_clamp(*branch);
 }
 
+static bool keeps_all(const struct expr *expr, const bool *keep)
+{
+    for (size_t k = 0; k < expr->switches; k++)
+        if (!keep || !keep[k]) return false;
+    return true;
+}
+
 static void resolve(const struct expr *expr, struct time_dd t, const double *y, double dt, const double *dy,
                     const bool *keep, bool stays, int *branch)
 {
-    if (!expr->switches) return;
+    if (keeps_all(expr, keep)) return;
     struct motion motion;
     int before[frame_limit];
     struct resolution context = {keep, stays, before, branch};

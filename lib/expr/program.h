@@ -119,6 +119,7 @@ struct expr {
     double single;               /* storage of `constant` when the program is one number */
     size_t result;               /* its register */
     size_t switches;
+    size_t last_switch; /* the index of the last instruction that is a switch; 0 without switches */
     const struct expr_switch *switch_at;
 
     struct dim dim;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/block_alloc.h"
 #include "holds/parts.h"
 #include "holds/together.h"
 #include "numeric/tolerances.h"
@@ -301,14 +302,32 @@ static enum impacts_end solve_whole(struct impacts *impacts, const double *befor
     return end == impacts_done || end == impacts_no_memory ? end : impacts_lost;
 }
 
+/* Memory for the solution in parts: one block. */
+struct room {
+    struct impacts_point *points;
+    double *numbers;
+    int *part, *member; /* of each point; of a part */
+};
+
+static bool room_init(struct room *room, size_t count)
+{
+    size_t n = 2 * count, numbers = n * n + 3 * n;
+    room->points =
+        block_alloc(count * sizeof *room->points + numbers * sizeof(double) + 2 * count * sizeof(int));
+    if (!room->points) return false;
+    room->numbers = (double *)(room->points + count);
+    room->part = (int *)(room->numbers + numbers);
+    room->member = room->part + count;
+    return true;
+}
+
 /* Solve the part of the points `member`; unchanged if no point of it closes. */
-static enum impacts_end solve_part(struct impacts *all, const int *member, int count, double *room)
+static enum impacts_end solve_part(struct impacts *all, const int *member, int count, struct room *room)
 {
     int n = 2 * count, of = 2 * all->count;
-    double *W = room, *v = W + (size_t)n * (size_t)n, *P = v + n, *before = P + n;
-    struct impacts_point *points = calloc((size_t)count + 1, sizeof *points);
+    double *W = room->numbers, *v = W + (size_t)n * (size_t)n, *P = v + n, *before = P + n;
+    struct impacts_point *points = room->points;
     bool closes = false;
-    if (!points) return impacts_no_memory;
     for (int i = 0; i < n; i++) {
         int row = 2 * member[i / 2] + i % 2;
         for (int j = 0; j < n; j++) W[i * n + j] = all->W[row * of + 2 * member[j / 2] + j % 2];
@@ -334,7 +353,6 @@ static enum impacts_end solve_part(struct impacts *all, const int *member, int c
     if (closes) all->law = part.law;
     all->in_turn |= part.in_turn;
     all->several |= part.several;
-    free(points);
     return end;
 }
 
@@ -356,19 +374,17 @@ enum impacts_end impacts_solve(struct impacts *impacts)
     impacts->work = 0;
     impacts->in_turn = impacts->several = false;
     if (impacts->slides > 0) return solve_with_slides(impacts);
-    size_t count = (size_t)impacts->count, n = 2 * count;
-    int *part = calloc(2 * count + 1, sizeof *part), *member = part ? part + count : NULL;
-    double *room = calloc(n * n + 3 * n + 1, sizeof *room);
-    enum impacts_end end = part && room ? impacts_done : impacts_no_memory;
-    memset(impacts->P, 0, n * sizeof *impacts->P);
-    int parts = end == impacts_done ? parts_find(impacts->count, feel_each_other, impacts, part) : 0;
+    struct room room;
+    memset(impacts->P, 0, 2 * (size_t)impacts->count * sizeof *impacts->P);
+    if (!room_init(&room, (size_t)impacts->count)) return impacts_no_memory;
+    enum impacts_end end = impacts_done;
+    int parts = parts_find(impacts->count, feel_each_other, impacts, room.part);
     for (int p = 0; p < parts && end == impacts_done; p++) {
         int members = 0;
         for (int i = 0; i < impacts->count; i++)
-            if (part[i] == p) member[members++] = i;
-        end = solve_part(impacts, member, members, room);
+            if (room.part[i] == p) room.member[members++] = i;
+        end = solve_part(impacts, room.member, members, &room);
     }
-    free(part);
-    free(room);
+    free(room.points);
     return end;
 }

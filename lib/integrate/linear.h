@@ -74,6 +74,7 @@ struct linear_modes {
     double *A; /* dim dim */
     double rho;
     double *eigenvalues; /* 2 dim: real and imaginary parts */
+    bool even;           /* the accelerations depend on nothing: the lower half of A is zero */
 };
 
 /* Modes, and their matrix; NULL: none yet. Several modes may share a matrix, as of a block that slips in both

@@ -108,6 +108,8 @@ static struct linear_modes *make_modes(struct linear_pace *pace)
     pace->oldest = (pace->oldest + 1) % linear_most_kept;
     forget(pace, modes);
     memcpy(modes->A, pace->jacobian, size);
+    modes->even = true;
+    for (size_t i = dim * dim / 2; i < dim * dim; i++) modes->even &= modes->A[i] == 0;
     modes->rho = stiffness_rate(dim, modes->A, pace->work);
     return find_eigenvalues(pace, modes) ? modes : NULL;
 }

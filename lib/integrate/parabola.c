@@ -64,6 +64,12 @@ static void move(const struct parabola *s, double h, double *y)
     }
 }
 
+static void slopes_at(const struct parabola *s, const double *y, double *f)
+{
+    memcpy(f, y + s->n, s->n * sizeof *y);
+    memcpy(f + s->n, s->a, s->n * sizeof *y);
+}
+
 static int parabola_apply(void *state, size_t dim, double t, double h, double y[], double yerr[],
                           const double dydt_in[], double dydt_out[], const gsl_odeiv2_system *sys)
 {
@@ -86,10 +92,7 @@ static int parabola_apply(void *state, size_t dim, double t, double h, double y[
         memcpy(y, s->y0, dim * sizeof *y);
         return GSL_FAILURE;
     }
-    if (dydt_out) {
-        memcpy(dydt_out, y + n, n * sizeof *y);
-        memcpy(dydt_out + n, s->a, n * sizeof *y);
-    }
+    if (dydt_out) slopes_at(s, y, dydt_out);
     s->stepped = true;
     return GSL_SUCCESS;
 }
@@ -104,6 +107,11 @@ int parabola_dense_prepare(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys)
 void parabola_dense_eval(const gsl_odeiv2_step *step, double since, double *y)
 {
     move(step->state, since, y);
+}
+
+void parabola_slopes(const gsl_odeiv2_step *step, const double *y, double *f)
+{
+    slopes_at(step->state, y, f);
 }
 
 int parabola_dense_powers(const gsl_odeiv2_step *step, size_t i, const struct powers_piece *piece, double *c)

@@ -23,6 +23,9 @@ extern const gsl_odeiv2_step_type *const step_parabola;
 /* As those of dop853, but at the time `since` the start of the step [s]; exact, without evaluations. */
 int parabola_dense_prepare(gsl_odeiv2_step *step, const gsl_odeiv2_system *sys);
 void parabola_dense_eval(const gsl_odeiv2_step *step, double since, double *y);
+
+/* The slopes at a state y within the last step, of its velocities and its constant accelerations. */
+void parabola_slopes(const gsl_odeiv2_step *step, const double *y, double *f);
 int parabola_dense_powers(const gsl_odeiv2_step *step, size_t i, const struct powers_piece *piece, double *c);
 
 #endif

@@ -109,15 +109,31 @@ void stepper_free(struct stepper *s)
     free(s);
 }
 
+/* Forget all steps; false without time to the limit. */
+static bool forget_steps(struct stepper *s, struct time_dd t, struct time_dd t_limit)
+{
+    s->stepped = false;
+    s->stable_h = s->rate = 0;
+    if (!(time_dd_since(t_limit, t) > 0)) return false;
+    gsl_odeiv2_step_reset(s->step);
+    if (s->redo) gsl_odeiv2_step_reset(s->redo); /* rodas5p keeps a Jacobian */
+    return true;
+}
+
+int stepper_restart(struct stepper *s, struct time_dd t, const double *y, const double *f,
+                    struct time_dd t_limit, double *h)
+{
+    if (!forget_steps(s, t, t_limit)) return GSL_EINVAL;
+    error_norm_update(s->control, y, f);
+    *h = fmin(time_dd_since(t_limit, t), s->h_max);
+    return GSL_SUCCESS;
+}
+
 int stepper_reset(struct stepper *s, struct counted_system *system, struct time_dd t, const double *y,
                   double *f, struct time_dd t_limit, double *h)
 {
     double room = time_dd_since(t_limit, t);
-    s->stepped = false;
-    s->stable_h = s->rate = 0;
-    if (!(room > 0)) return GSL_EINVAL;
-    gsl_odeiv2_step_reset(s->step);
-    if (s->redo) gsl_odeiv2_step_reset(s->redo); /* rodas5p keeps a Jacobian */
+    if (!forget_steps(s, t, t_limit)) return GSL_EINVAL;
     int code = counted_system_rhs(system, t.t, y, f);
     if (code != GSL_SUCCESS) return code;
     error_norm_update(s->control, y, f);

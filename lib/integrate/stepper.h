@@ -63,6 +63,10 @@ void stepper_free(struct stepper *stepper);
 int stepper_reset(struct stepper *stepper, struct counted_system *system, struct time_dd t, const double *y,
                   double *f, struct time_dd t_limit, double *h);
 
+/* The same for an exact method, with the slopes f at (t, y) given. */
+int stepper_restart(struct stepper *stepper, struct time_dd t, const double *y, const double *f,
+                    struct time_dd t_limit, double *h);
+
 /* Make one accepted step from (*t, y) with slopes f = f(*t, y), not beyond t_limit. On stepper_ok *t, y and f
  * are those of its end, and *h is the size proposed for the next one. On any other status *t, y and f are
  * unchanged; reset before the next step.

@@ -156,7 +156,10 @@ int stepper_partial(struct stepper *s, struct time_dd t, double *y, double *f)
     }
     if (s->redo && redo_well(s, time_dd_since(t, s->t0), y, f)) return GSL_SUCCESS;
     int code = stepper_dense(s, t, y);
-    return code == GSL_SUCCESS ? counted_system_rhs(s->system, t.t, y, f) : code;
+    if (code != GSL_SUCCESS) return code;
+    if (s->step->type != step_parabola) return counted_system_rhs(s->system, t.t, y, f);
+    parabola_slopes(s->step, y, f);
+    return GSL_SUCCESS;
 }
 
 int stepper_walk(struct stepper *s, struct time_dd t, double *y, double *f)

@@ -80,6 +80,13 @@ int switcher_reset(struct switcher *s, struct counted_system *system, struct tim
     return stepper_reset(s->steppers[s->now], system, t, y, f, t_limit, h);
 }
 
+int switcher_restart(struct switcher *s, struct time_dd t, const double *y, const double *f,
+                     struct time_dd t_limit, double *h)
+{
+    stiffness_forget(&s->stiffness);
+    return stepper_restart(s->steppers[s->now], t, y, f, t_limit, h);
+}
+
 /* The fastest rate of the system at the start of the step that the implicit method has just made, for the
  * switch back to the explicit one; NAN without a Jacobian. */
 static double last_rate(struct switcher *s)

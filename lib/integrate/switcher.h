@@ -27,6 +27,10 @@ void switcher_use_exact(struct switcher *switcher, bool exact);
 int switcher_reset(struct switcher *switcher, struct counted_system *system, struct time_dd t,
                    const double *y, double *f, struct time_dd t_limit, double *h);
 
+/* The same for an exact method in use, with the slopes f given. */
+int switcher_restart(struct switcher *switcher, struct time_dd t, const double *y, const double *f,
+                     struct time_dd t_limit, double *h);
+
 enum stepper_status switcher_step(struct switcher *switcher, struct counted_system *system, struct time_dd *t,
                                   double *y, double *f, double *h, struct time_dd t_limit);
 

@@ -346,7 +346,7 @@ static void find_touching(struct run *run)
     tree_move(run->model, &at);
     for (int i = 0; i < tree_of(run)->meeting_count; i++)
         contacts_find_touching(run, i, contacts_reach(run, i));
-    impulse_look(run->state);
+    constraints_evaluate(run->model, &at, NULL);
 }
 
 /* Fail at an impact on a step lower than contact_level: surfaces of one body, and of the ground, are made

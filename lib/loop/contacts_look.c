@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "dynamics/contact.h"
-#include "dynamics/impulse.h"
 #include "dynamics/tree_system.h"
 #include "expr/unit.h"
 #include "loop/contacts.h"
@@ -54,6 +53,12 @@ double run_contact_radians(const struct run *run, double span)
     return (2 * turn + 2 * pass) * span; /* both shapes of a pair may turn */
 }
 
+static void place(struct fbd_state *state)
+{
+    const struct instant at = state_instant(state);
+    tree_move(state->model, &at);
+}
+
 /* Speeds within a step are about those at its ends; a factor of two, and a check at the end of the step,
  * allow for more. */
 void run_wake_contacts(struct run *run, double end)
@@ -64,7 +69,7 @@ void run_wake_contacts(struct run *run, double end)
     if (!has_meetings(run->model)) return;
     double span = end - run->step.from;
     state_copy(trial, run->during);
-    impulse_look(trial);
+    place(trial);
     for (int i = 0; i < tree_of(run)->meeting_count; i++) {
         struct distance at = meeting_distance(run->model, trial->tree, i);
         work->asleep[i] =
@@ -72,7 +77,7 @@ void run_wake_contacts(struct run *run, double end)
     }
     memcpy(trial->y, run->work.y, plan_size(&run->model->plan) * sizeof *trial->y);
     trial->t = end;
-    impulse_look(trial);
+    place(trial);
     for (int i = 0; i < tree_of(run)->meeting_count; i++) {
         struct distance at = meeting_distance(run->model, trial->tree, i);
         work->asleep[i] &=
@@ -99,8 +104,7 @@ static struct look look_at(struct run *run, int index, int probe, double t)
     if (trial->t != t) {
         switcher_dense(run->stepper, time_dd_at(t), trial->y);
         trial->t = t;
-        const struct instant moved = state_instant(trial);
-        tree_move(run->model, &moved);
+        place(trial);
     }
     const struct instant at = state_instant(trial);
     double speed = meeting_distance(run->model, trial->tree, index).speed;
@@ -209,16 +213,21 @@ static bool parts(const struct run *run, const struct instant *at, int index)
     return least >= -fmax(rounding * speed, of_all * run->contacts.speed);
 }
 
+static double reach_of(double near, double deep)
+{
+    return deep > near && deep <= contacts_late * near ? 1.001 * deep : near;
+}
+
 void contacts_note_depths(struct run *run)
 {
     const struct fbd_state *state = run->state;
     const struct instant at = state_instant(run->state);
     for (int i = 0; i < tree_of(run)->meeting_count; i++) {
         double deep = meeting_depth(run->model, &at, i), near = meeting_near(run->model, state->tree, i);
+        double reach = reach_of(near, deep);
         int features[2];
         bool beyond = deep > meeting_rounding(run->model, state->tree, i); /* rounding is always accepted */
         bool leaves = beyond && deep <= contacts_late * near && parts(run, &at, i);
-        double reach = contacts_reach(run, i);
         bool over_an_end =
             deep > 0 && deep <= reach && meeting_touching(run->model, state->tree, i, reach, features) == 0;
         run->contacts.deep[i] = leaves || over_an_end ? deep : 0;
@@ -312,6 +321,5 @@ double contacts_reach(const struct run *run, int index)
 {
     const struct instant at = state_instant(run->state);
     double near = meeting_near(run->model, run->state->tree, index);
-    double deep = meeting_depth(run->model, &at, index);
-    return deep > near && deep <= contacts_late * near ? 1.001 * deep : near;
+    return reach_of(near, meeting_depth(run->model, &at, index));
 }

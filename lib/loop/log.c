@@ -36,8 +36,11 @@ void log_friction(struct run *run, fbd_event_kind kind, int pair)
     struct run_event *event = log_event(run, kind, mode->body, mode->load, -1);
     if (!event) return;
     struct instant at = state_instant(run->state);
-    double *slots = run->during->scratch;
-    state_balance_of(run->state, mode->body, slots); /* includes indeterminate forces */
+    const double *slots = run->state->slots;
+    if (!run->model->bodies[mode->body].alone) {
+        slots = run->during->scratch;
+        state_balance_of(run->state, mode->body, run->during->scratch); /* includes indeterminate forces */
+    }
     struct friction_values values = friction_at(run->model, pair, &at, slots);
     event->force = values.force;
     event->limit = values.limit;

@@ -239,8 +239,7 @@ static bool restart(struct run *run)
     run_choose_method(run);
     if (!run_is_exact(run)) roundoff_estimate(run);
     watchers_follow(&run->watchers, run->during);
-    int status = switcher_reset(run->stepper, &run->system, run_end(run), run->work.y, run->work.f,
-                                time_dd_at(run->options.until), &run->step.h);
+    int status = run_start_stepper(run);
     if (status != GSL_SUCCESS) {
         run_fail_step(run, stepper_bad_function);
         return false;
@@ -451,6 +450,19 @@ static bool apply_events(struct run *run, const struct turn *turn)
     return true;
 }
 
+/* Is the balance of forces and motion checked at this event? Always where multipliers or weights of sliding modes are
+ * solved for; else forces follow from the state by formulas, and the check costs as much as the event: at the first
+ * events, and at one of so many. */
+static bool balance_is_due(struct run *run)
+{
+    enum { first_events = 16, events_between = 16 };
+    const struct tree *tree = run->model->tree;
+    const bool solved = run->state->tree->acting_count + tree->pair_count + tree->massless_count > 0 ||
+                        state_sliding(run->state);
+    run->events++;
+    return solved || run->events <= first_events || run->events % events_between == 0;
+}
+
 /* Log the results of the step, and prepare the watchers for the next one. */
 static void end_step(struct run *run, const struct turn *turn)
 {
@@ -464,7 +476,7 @@ static void end_step(struct run *run, const struct turn *turn)
         run_evaluate(run); /* including world positions in user events */
         run_apply_touched(run, false);
     }
-    if (turn->moving || turn->timed || at_end) run_check_balance(run);
+    if (at_end || ((turn->moving || turn->timed) && balance_is_due(run))) run_check_balance(run);
     run_check_lifetimes(run);
     if (run->end.outcome == FBD_GOING && at_end) run->end.outcome = FBD_DONE;
     if (run->end.outcome == FBD_GOING && !run->plain)

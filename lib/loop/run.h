@@ -198,6 +198,7 @@ struct run {
     struct energy_guard energy;
     double liveliest; /* the largest kinetic energy of jointed bodies so far */
     struct event_log log;
+    unsigned long events; /* steps that ended in events */
     struct recent recent;
     struct run_work work;
 };
@@ -258,10 +259,12 @@ static inline struct time_dd run_end(const struct run *run)
     return state_moment(run->state);
 }
 
-/* Is the force of a load constant over the last step? Where it is, its work between two times of the step is their
- * difference times its power in the mean state: the mean positions, and the mean velocities, by the displacements. */
+/* Is the force of a load constant over the last step, or linear in time and all velocities constant? Then its work
+ * between two times of the step is their difference times its power in the mean state: the mean positions, and the mean
+ * velocities, by the displacements; `forces`: with its forces. */
 bool run_keeps_force(const struct run *run, size_t load);
-bool run_look_mean(struct run *run, struct time_dd from, struct time_dd to, struct fbd_state *state);
+bool run_look_mean(struct run *run, struct time_dd from, struct time_dd to, bool forces,
+                   struct fbd_state *state);
 
 /* Number of panels of the last step for Gauss's rule with five points, such that the error of an integral of
  * powers is below that of the motion. For linear systems each panel is half a radian, or a decay by
@@ -271,11 +274,13 @@ int run_panels(const struct run *run);
 /* ---- internal to the loop */
 
 /* The method (run_method.c): whether it follows from the structure; its steppers, false when memory is out; that of the
- * present modes; of a linear system its matrices, false when the run has failed; the size of the next step where the
+ * present modes; the start of its stepper, with the slopes (constant accelerations are those of the state; a code of GSL);
+ * of a linear system its matrices, false when the run has failed; the size of the next step where the
  * method has no error estimate; and how far the next step without a closed contact may reach. */
 bool run_chooses_structure(const struct run *run);
 bool run_make_stepper(struct run *run);
 void run_choose_method(struct run *run);
+int run_start_stepper(struct run *run);
 bool run_start_linear(struct run *run);
 void run_limit_method(struct run *run);
 void run_limit_flight(struct run *run);

@@ -42,16 +42,28 @@ bool run_look(struct run *run, struct time_dd t, struct fbd_state *state)
     return true;
 }
 
+/* Are all velocities of a linear system constant in the present modes? Every step ends with the same accelerations. */
+static bool moves_evenly(const struct run *run)
+{
+    size_t n = (size_t)run->model->plan.n;
+    bool even = run->pace.now && run->pace.now->even;
+    for (size_t i = n; even && i < 2 * n; i++) even = run->work.f[i] == 0;
+    return even;
+}
+
 bool run_keeps_force(const struct run *run, size_t load)
 {
     if (state_sliding(run->during)) return false; /* the weights of its branches vary */
     if (run->flies || run->kind == structure_constant) return true;
-    if (run->kind != structure_linear || !run->keeps_force[load]) return false;
+    if (run->kind != structure_linear) return false;
+    if (moves_evenly(run)) return true;
+    if (!run->keeps_force[load]) return false;
     int pair = run->model->bodies[run->model->loads[load].body].friction;
     return pair < 0 || run->during->slip[pair] != stick;
 }
 
-bool run_look_mean(struct run *run, struct time_dd from, struct time_dd to, struct fbd_state *state)
+bool run_look_mean(struct run *run, struct time_dd from, struct time_dd to, bool forces,
+                   struct fbd_state *state)
 {
     double length = time_dd_since(to, from), *begin = run->work.sample;
     state_copy(state, run->during);
@@ -63,6 +75,6 @@ bool run_look_mean(struct run *run, struct time_dd from, struct time_dd to, stru
         state->y[i] = begin[i] + moved / 2;
         state->y[n + i] = moved / length;
     }
-    state_evaluate(state);
+    if (forces) state_evaluate(state);
     return true;
 }

@@ -51,6 +51,21 @@ void run_choose_method(struct run *run)
     switcher_use_exact(run->stepper, run->flies);
 }
 
+int run_start_stepper(struct run *run)
+{
+    const struct time_dd until = time_dd_at(run->options.until);
+    double probe = 0;
+    if (run->flies || run->kind == structure_constant) {
+        state_flow(run->state, run->work.f);
+        for (size_t i = 0; i < plan_size(&run->model->plan); i++) probe += 0 * run->work.f[i];
+        if (probe == 0)
+            return switcher_restart(run->stepper, run_end(run), run->work.y, run->work.f, until,
+                                    &run->step.h);
+    }
+    return switcher_reset(run->stepper, &run->system, run_end(run), run->work.y, run->work.f, until,
+                          &run->step.h);
+}
+
 /* The matrices of a linear system depend on the modes only: branches, slips and pulls, one behind the other;
  * except in a Filippov sliding mode. */
 bool run_start_linear(struct run *run)

@@ -146,28 +146,30 @@ static void write_final_errors(struct text *text, const fbd_result *result)
     text_add(text, "\n  },\n");
 }
 
-static void text_member(struct text *text, const char *name, const char *value, bool last)
+/* Behind a literal. */
+static inline void number_behind(struct text *text, const char *literal, double value)
 {
-    text_json_key(text, name);
+    text_literal(text, literal);
+    text_json_number(text, value);
+}
+
+static inline void string_behind(struct text *text, const char *literal, const char *value)
+{
+    text_literal(text, literal);
     text_json_string(text, value);
-    if (!last) text_add(text, ", ");
 }
 
 /* Write each of its velocities before and after. */
 static void write_impact(struct text *text, const struct impact_record *impact)
 {
-    member(text, "normal_impulse", impact->p, false);
-    member(text, "friction_impulse", impact->tau, false);
-    member(text, "work", impact->work, false);
-    text_add(text, "\"normal_velocity\": [");
-    text_json_number(text, impact->v_n[0]);
-    text_add(text, ", ");
-    text_json_number(text, impact->v_n[1]);
-    text_add(text, "], \"tangential_velocity\": [");
-    text_json_number(text, impact->v_t[0]);
-    text_add(text, ", ");
-    text_json_number(text, impact->v_t[1]);
-    text_add(text, "], ");
+    number_behind(text, ", \"normal_impulse\": ", impact->p);
+    number_behind(text, ", \"friction_impulse\": ", impact->tau);
+    number_behind(text, ", \"work\": ", impact->work);
+    number_behind(text, ", \"normal_velocity\": [", impact->v_n[0]);
+    number_behind(text, ", ", impact->v_n[1]);
+    number_behind(text, "], \"tangential_velocity\": [", impact->v_t[0]);
+    number_behind(text, ", ", impact->v_t[1]);
+    text_literal(text, "]");
 }
 
 static bool is_impact(fbd_event_kind kind)
@@ -184,16 +186,15 @@ static void write_events(struct text *text, const fbd_simulation *simulation)
         const struct run_event *event = &run->events[i];
         char detail[event_detail_size];
         event_detail(run->model, event, detail, sizeof detail);
-        text_add(text, i ? ",\n    {" : "\n    {");
-        member(text, "t", event->t, false);
-        if (simulation->bars) member(text, "t_error", simulation->event_errors[i], false);
-        text_member(text, "body", event_body(run->model, event), false);
-        text_member(text, "kind", fbd_event_kind_name(event->kind), false);
-        text_member(text, "name", event_name(run->model, event), false);
+        number_behind(text, i ? ",\n    {\"t\": " : "\n    {\"t\": ", event->t);
+        if (simulation->bars) number_behind(text, ", \"t_error\": ", simulation->event_errors[i]);
+        string_behind(text, ", \"body\": ", event_body(run->model, event));
+        string_behind(text, ", \"kind\": ", fbd_event_kind_name(event->kind));
+        string_behind(text, ", \"name\": ", event_name(run->model, event));
         if (is_impact(event->kind)) write_impact(text, &event->impact);
-        if (event->kind == FBD_EVENT_REST) member(text, "impacts", event->limit, false);
-        text_member(text, "detail", detail, true);
-        text_add(text, "}");
+        if (event->kind == FBD_EVENT_REST) number_behind(text, ", \"impacts\": ", event->limit);
+        string_behind(text, ", \"detail\": ", detail);
+        text_literal(text, "}");
     }
     text_add(text, run->event_count ? "\n  ],\n" : "],\n");
 }

@@ -73,13 +73,6 @@ void ledger_free(struct ledger *ledger)
     *ledger = (struct ledger){0};
 }
 
-bool ledger_integrates(const struct ledger *ledger, const struct group *group)
-{
-    for (size_t i = 0; i < group_load_count(ledger->model, group); i++)
-        if (ledger->integrated[group_load(group, (int)i)]) return true;
-    return false;
-}
-
 bool ledger_counts(const struct ledger *ledger, const struct group *group)
 {
     for (size_t i = 0; i < group->model->load_count; i++)
@@ -131,7 +124,7 @@ void ledger_restart(struct ledger *ledger, struct ensemble *ensemble, size_t ind
 void ledger_note(struct ledger *ledger, const struct group *group)
 {
     struct fbd_state *state = group->run->state;
-    double sum = total_kinetic_energy(state);
+    double sum = group->run->stale ? total_kinetic_energy(state) : standing_kinetic_energy(state);
     ledger->liveliest = fmax(ledger->liveliest, sum);
     double *lively = &ledger->lively[first_load(ledger, group)];
     *lively = fmax(*lively, sum);

@@ -47,9 +47,6 @@ void ledger_free(struct ledger *ledger);
 /* Does a load have works that do not follow from its potential? As a spring breaks, its energy is lost. */
 bool ledger_has_works(const struct ledger *ledger, size_t load);
 
-/* Is any work in this group integrated? Sampling inside a step costs as much as dense output. */
-bool ledger_integrates(const struct ledger *ledger, const struct group *group);
-
 /* Is any work in this group counted: of powers, or of impacts alone (a normal force of a wheel that lands)? */
 bool ledger_counts(const struct ledger *ledger, const struct group *group);
 

@@ -96,16 +96,22 @@ struct panel {
     double floor;  /* round-off level of its works; set only after an error was found */
 };
 
-/* Expressions of places, switches in a sliding mode and rates of masses are complete only after an evaluation, and the
- * forces of some laws follow from it. */
-static bool needs_forces(const struct ledger *ledger, const struct group *group)
+/* Expressions of places and rates of masses are complete only after an evaluation, and the forces of some laws follow
+ * from it. */
+static bool reads_forces(const struct ledger *ledger, const struct group *group)
 {
     const struct fbd_model *model = group->model;
-    bool needs = model->names_places || model->plan.kink_count > 0;
+    bool needs = model->names_places;
     for (size_t b = 0; b < model->body_count; b++) needs |= model->bodies[b].varies;
     for (size_t i = 0; i < model->load_count; i++)
         needs |= ledger->integrated[group_load(group, (int)i)] && !load_is_of_motion(model, (int)i);
     return needs;
+}
+
+/* Within a step, branches of switches are those of a state only after an evaluation. */
+static bool needs_forces(const struct ledger *ledger, const struct group *group)
+{
+    return group->model->plan.kink_count > 0 || reads_forces(ledger, group);
 }
 
 static bool is_written(const struct model_load *load)
@@ -271,7 +277,18 @@ static void give_up(struct ledger *ledger, const struct group *group, const stru
     }
 }
 
-/* Are the forces of all integrated loads constant over the last step? */
+/* Has an integrated load of a group power in the last step? In flight contacts have none. */
+static bool any_power(const struct ledger *ledger, const struct group *group)
+{
+    const struct fbd_model *model = group->model;
+    for (size_t i = 0; i < model->load_count; i++) {
+        bool acts = !group->run->flies || model->loads[i].source->kind != load_contact;
+        if (acts && ledger->integrated[group_load(group, (int)i)]) return true;
+    }
+    return false;
+}
+
+/* Is the mean power of all integrated loads over the last step that in its mean state? */
 static bool keeps_forces(const struct ledger *ledger, const struct group *group)
 {
     for (size_t i = 0; i < group->model->load_count; i++)
@@ -279,16 +296,17 @@ static bool keeps_forces(const struct ledger *ledger, const struct group *group)
     return true;
 }
 
-/* The works of constant forces, in closed form. */
+/* The works by the mean state, in closed form. */
 static bool add_constant(struct ledger *ledger, struct ensemble *ensemble, size_t index, struct time_dd from,
                          struct time_dd to, struct sums *sums)
 {
     struct group *group = &ensemble->groups[index];
     struct fbd_state *probe = ensemble_probe(ensemble, group);
     const double length = time_dd_since(to, from);
+    const bool forces = reads_forces(ledger, group);
     for (size_t i = 0; i < group->model->load_count; i++) ledger->powers[group_load(group, (int)i)] = 0;
-    if (!probe || !run_look_mean(group->run, from, to, probe)) return false;
-    add_powers(ledger, group, probe, true, ledger->powers);
+    if (!probe || !run_look_mean(group->run, from, to, forces, probe)) return false;
+    add_powers(ledger, group, probe, forces, ledger->powers);
     for (size_t i = 0; i < group->model->load_count; i++) {
         int load = group_load(group, (int)i);
         if (!ledger->integrated[load]) continue;
@@ -304,7 +322,7 @@ bool powers_integrate(struct ledger *ledger, struct ensemble *ensemble, size_t g
 {
     const struct group *of = &ensemble->groups[group];
     double length = time_dd_since(to, from);
-    if (!(length > 0) || !ledger_integrates(ledger, of)) return true;
+    if (!(length > 0) || !any_power(ledger, of)) return true;
     if (keeps_forces(ledger, of)) return add_constant(ledger, ensemble, group, from, to, sums);
     int panels = run_panels(of->run);
     bool done = true;
