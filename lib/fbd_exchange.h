@@ -38,6 +38,12 @@ FBD_API size_t fbd_exchange_indicator_count(const fbd_exchange *exchange);
 FBD_API void fbd_exchange_set(fbd_exchange *exchange, double t, const double *numbers);
 FBD_API void fbd_exchange_get(const fbd_exchange *exchange, double *t, double *numbers);
 
+/* Set an input, in coherent units, from the present time on: of a model in which the input has no callback function
+ * (fbd_model_with_callbacks). False with a note in `errors`: `unknown-input`, `fixed-input`, or `bad-call` for a value that is
+ * not finite. */
+FBD_API bool fbd_exchange_set_input(fbd_exchange *exchange, const char *name, double value,
+                                    fbd_errors *errors);
+
 /* The derivatives of the numbers by time, and the indicators, in the present modes. False when a derivative is not
  * finite. */
 FBD_API bool fbd_exchange_derivatives(fbd_exchange *exchange, double *derivatives);

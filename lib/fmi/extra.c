@@ -7,30 +7,22 @@
 #include "base/diag.h"
 #include "base/format.h"
 
-/* ---- inputs that change without a new compilation */
+/* ---- inputs that are set between steps */
 
-static int value_of_input(void *context, double t, const double *y, double *value)
-{
-    (void)t, (void)y;
-    *value = *(const double *)context;
-    return 0;
-}
-
-fbd_model *extra_model(const fbd_model *model, const double *values, fbd_errors *errors)
+fbd_model *extra_model(const fbd_model *model, fbd_errors *errors)
 {
     size_t count = fbd_model_parameter_count(model), used = 0;
-    fbd_callback *callbacks = calloc(count + 1, sizeof *callbacks);
-    if (!callbacks) {
+    fbd_callback *inputs = calloc(count + 1, sizeof *inputs);
+    if (!inputs) {
         diag_out_of_memory(errors);
         return NULL;
     }
     for (size_t i = 0; i < count; i++) {
         const fbd_parameter parameter = fbd_model_parameter(model, i);
-        if (parameter.input)
-            callbacks[used++] = (fbd_callback){parameter.name, value_of_input, (void *)&values[i]};
+        if (parameter.input) inputs[used++] = (fbd_callback){.input = parameter.name};
     }
-    fbd_model *with = fbd_model_with_callbacks(model, callbacks, used, errors);
-    free(callbacks);
+    fbd_model *with = fbd_model_with_callbacks(model, inputs, used, errors);
+    free(inputs);
     return with;
 }
 
@@ -38,17 +30,15 @@ fbd_model *extra_model(const fbd_model *model, const double *values, fbd_errors 
 
 static void take_reason(struct extras *extras, fbd_errors *errors)
 {
-    const fbd_error *first = diag_get(errors, 0);
-    for (size_t i = 0; first && first->severity == FBD_WARNING; i++) first = diag_get(errors, i);
+    const fbd_error *first = diag_first_error(errors);
     format_into(extras->why, sizeof extras->why, "%s", first ? first->message : "");
 }
 
 /* Count the indicators by a start, in a model as instances use it. */
-static bool count_indicators(struct extras *extras, const fbd_model *model, double *values,
-                             fbd_errors *errors)
+static bool count_indicators(struct extras *extras, const fbd_model *model, fbd_errors *errors)
 {
     const fbd_options options = {.size = sizeof options, .until = 1};
-    fbd_model *with = extra_model(model, values, errors);
+    fbd_model *with = extra_model(model, errors);
     fbd_state *state = with ? fbd_state_new(with) : NULL;
     if (with && !state) diag_out_of_memory(errors);
     fbd_exchange *exchange = state ? fbd_exchange_new(state, &options, errors) : NULL;
@@ -63,13 +53,9 @@ static bool count_indicators(struct extras *extras, const fbd_model *model, doub
 /* Without model exchange the reason is kept. */
 static bool try_exchange(struct extras *extras, const fbd_model *model)
 {
-    const size_t count = fbd_model_parameter_count(model);
-    double *values = ARENA_ARRAY(&extras->arena, count + 1, double);
     fbd_errors *errors = fbd_errors_new();
-    const bool memory = values && errors;
-    for (size_t i = 0; memory && i < count; i++) values[i] = fbd_model_parameter(model, i).value;
-    extras->exchanges = memory && count_indicators(extras, model, values, errors);
-    const bool whole = memory && !errors->out_of_memory;
+    extras->exchanges = errors && count_indicators(extras, model, errors);
+    const bool whole = errors && !errors->out_of_memory;
     if (whole && !extras->exchanges) take_reason(extras, errors);
     fbd_errors_free(errors);
     return whole;

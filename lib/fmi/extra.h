@@ -36,8 +36,8 @@ void extras_free(struct extras *extras);
 /* Make forces outputs, by their names separated by commas. False with a note `unknown-output` in `errors`. */
 bool extras_choose(struct extras *extras, const char *names, fbd_errors *errors);
 
-/* A model in which the inputs are those numbers, indexed as parameters, at all times: they may change between two
- * calls. NULL with notes in `errors`. The numbers must outlive it. */
-fbd_model *extra_model(const fbd_model *model, const double *values, fbd_errors *errors);
+/* The model with inputs that can be set (fbd_exchange_set_input), at first to their values in `model`. NULL with notes in
+ * `errors`. */
+fbd_model *extra_model(const fbd_model *model, fbd_errors *errors);
 
 #endif

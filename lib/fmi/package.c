@@ -115,12 +115,58 @@ static bool is_first(const struct package *package, size_t index)
     return true;
 }
 
-void package_units(const struct package *package, struct text *xml)
+static void write_units(const struct package *package, struct text *xml)
 {
     text_add(xml, "  <UnitDefinitions>\n");
     for (size_t i = 0; i < package->variable_count + package->extras.count; i++)
         if (unit_of(package, i)[0] && is_first(package, i)) write_unit(xml, unit_of(package, i));
     text_add(xml, "  </UnitDefinitions>\n");
+}
+
+/* ---- the description */
+
+void xml_head(const struct package *package, const char *version, const char *token, struct text *xml)
+{
+    const char *title = fbd_model_title(package->model);
+    text_add(xml, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription");
+    xml_attribute(xml, "fmiVersion", version);
+    xml_attribute(xml, "modelName", package->name);
+    xml_attribute(xml, token, package->token);
+    if (title[0]) xml_attribute(xml, "description", title);
+    xml_attribute(xml, "license", "GPL-3.0-or-later");
+    xml_attribute(xml, "generationTool", "fbd " FBD_VERSION);
+    xml_attribute(xml, "variableNamingConvention", "structured");
+}
+
+void xml_interface(const struct package *package, const char *name, const char *capabilities,
+                   const char *others, struct text *xml)
+{
+    text_printf(xml, "  <%s", name);
+    xml_attribute(xml, "modelIdentifier", package->name);
+    text_printf(xml, "%s%s/>\n", capabilities, others);
+}
+
+static void experiment(const struct package *package, struct text *xml)
+{
+    text_add(xml, "  <LogCategories>\n"
+                  "    <Category name=\"logStatusError\" description=\"errors\"/>\n"
+                  "    <Category name=\"logStatusWarning\" description=\"warnings\"/>\n"
+                  "    <Category name=\"logEvents\" description=\"events of the motion\"/>\n"
+                  "  </LogCategories>\n  <DefaultExperiment startTime=\"0\"");
+    xml_number(xml, "stopTime", package->until);
+    xml_number(xml, "tolerance", package->tolerance);
+    text_add(xml, "/>\n");
+}
+
+void package_variables(const struct package *package, xml_variable *variable, xml_variable *extra,
+                       struct text *xml)
+{
+    write_units(package, xml);
+    experiment(package, xml);
+    text_add(xml, "  <ModelVariables>\n");
+    for (size_t i = 0; i < package->variable_count; i++) variable(package, i, xml);
+    for (size_t i = 0; i < package->extras.count; i++) extra(package, i, xml);
+    text_add(xml, "  </ModelVariables>\n");
 }
 
 /* ---- variables */

@@ -104,8 +104,18 @@ const char *package_display_unit(const char *unit);
 void xml_units(struct text *xml, const char *unit);
 void xml_extra_description(struct text *xml, const struct extra *extra);
 
-/* Append the units of all variables, each once. */
-void package_units(const struct package *package, struct text *xml);
+/* Append the beginning of the first element, up to the attributes of one version; `token` is the name of the token's
+ * attribute. */
+void xml_head(const struct package *package, const char *version, const char *token, struct text *xml);
+
+/* Append an interface, ModelExchange or CoSimulation, with its capabilities as attributes. */
+void xml_interface(const struct package *package, const char *name, const char *capabilities,
+                   const char *others, struct text *xml);
+
+/* Append units, log categories, default experiment and all variables: `variable` and `extra` append one. */
+typedef void xml_variable(const struct package *package, size_t index, struct text *xml);
+void package_variables(const struct package *package, xml_variable *variable, xml_variable *extra,
+                       struct text *xml);
 
 /* Append a short description of variable `index`: "rate of change of block.x", as an attribute. */
 void xml_description(struct text *xml, const struct package *package, size_t index);

@@ -23,8 +23,7 @@ static bool no_memory(struct plant *plant)
 /* Set the reason to the first error. */
 static bool fail_by(struct plant *plant, fbd_errors *errors)
 {
-    const fbd_error *first = diag_get(errors, 0);
-    for (size_t i = 0; first && first->severity == FBD_WARNING; i++) first = diag_get(errors, i);
+    const fbd_error *first = diag_first_error(errors);
     if (!first) return no_memory(plant);
     if (first->line > 0)
         format_into(plant->own_reason, sizeof plant->own_reason, "model.yaml:%d:%d: %s", first->line,

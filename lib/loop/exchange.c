@@ -117,6 +117,14 @@ void exchange_put(struct exchange *exchange, double t, const double *y)
     exchange->moved = true;
 }
 
+void exchange_set_input(struct exchange *exchange, size_t input, double value)
+{
+    struct run *run = exchange->run;
+    run->state->held[input] = run->during->held[input] = value;
+    run->stale = true;
+    exchange->moved = true;
+}
+
 void exchange_slopes(struct exchange *exchange, double *dy)
 {
     run_evaluate(exchange->run);

@@ -28,6 +28,9 @@ void exchanges(void **context)
     fbd_exchange *exchange = fbd_exchange_new(state, NULL, NULL);
     assert_non_null(exchange);
     ANSWERS(fbd_exchange_state, !fbd_exchange_state(exchange, foreign) && !fbd_exchange_state(NULL, state));
+    REFUSES(fbd_exchange_set_input, !fbd_exchange_set_input(NULL, "F", 1, errors));
+    REFUSES(fbd_exchange_set_input, !fbd_exchange_set_input(exchange, NULL, 1, errors));
+    REFUSES(fbd_exchange_set_input, !fbd_exchange_set_input(exchange, "F", NAN, errors));
     fbd_exchange_free(exchange);
 
     fbd_force_columns *columns = fbd_force_columns_new(model);
