@@ -170,7 +170,7 @@ double continuous_value(struct continuous *continuous, size_t index)
     }
     if (index < plant->variable_count) return continuous->shown[index];
     const struct extra *extra = &plant->extras.list[index - plant->variable_count];
-    if (extra->kind == extra_force) return continuous->pulls[extra->index];
+    if (extra->kind == extra_column) return continuous->pulls[extra->index];
     if (extra->kind == extra_rate) {
         fbd_exchange_derivatives(continuous->exchange, continuous->spare);
         return continuous->spare[2 * continuous->coordinates + extra->index];

@@ -73,7 +73,7 @@ static void extra_unknowns(const struct package *package, enum extra_kind kind, 
 {
     for (size_t i = 0; i < package->extras.count; i++) {
         const struct extra *extra = &package->extras.list[i];
-        if (extra->kind == kind && (extra->output || kind != extra_force))
+        if (extra->kind == kind && (extra->output || kind != extra_column))
             text_printf(xml, "    <%s valueReference=\"%zu\"/>\n", element, package->variable_count + i);
     }
 }
@@ -100,7 +100,7 @@ static void structure(const struct package *package, struct text *xml)
     for (size_t i = 0; i < count; i++)
         if (package_causality(package->model, &variables[i]) == fmi_output)
             unknown(package, "Output", i, xml);
-    extra_unknowns(package, extra_force, "Output", xml);
+    extra_unknowns(package, extra_column, "Output", xml);
     for (size_t i = 0; i < count; i++)
         if (package_integral(&variables[i], i) > 0 && package_has_states(package))
             unknown(package, "ContinuousStateDerivative", i, xml);
@@ -108,7 +108,7 @@ static void structure(const struct package *package, struct text *xml)
     for (size_t i = 0; i < count; i++)
         if (package_is_initial_unknown(package, i))
             text_printf(xml, "    <InitialUnknown valueReference=\"%zu\"/>\n", i);
-    extra_unknowns(package, extra_force, "InitialUnknown", xml);
+    extra_unknowns(package, extra_column, "InitialUnknown", xml);
     extra_unknowns(package, extra_rate, "InitialUnknown", xml);
     extra_unknowns(package, extra_indicator, "EventIndicator", xml);
     text_add(xml, "  </ModelStructure>\n");

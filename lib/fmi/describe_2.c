@@ -91,12 +91,12 @@ static bool is_extra(const struct package *package, size_t index, enum extra_kin
 {
     const size_t count = package->variable_count;
     if (index < count || package->extras.list[index - count].kind != kind) return false;
-    return kind != extra_force || package->extras.list[index - count].output;
+    return kind != extra_column || package->extras.list[index - count].output;
 }
 
 static bool is_output(const struct package *package, size_t index)
 {
-    if (index >= package->variable_count) return is_extra(package, index, extra_force);
+    if (index >= package->variable_count) return is_extra(package, index, extra_column);
     return package_causality(package->model, &package->variables[index]) == fmi_output;
 }
 
@@ -109,7 +109,7 @@ static bool is_derivative(const struct package *package, size_t index)
 static bool is_initial(const struct package *package, size_t index)
 {
     if (index >= package->variable_count)
-        return is_extra(package, index, extra_force) || is_extra(package, index, extra_rate);
+        return is_extra(package, index, extra_column) || is_extra(package, index, extra_rate);
     return package_is_initial_unknown(package, index);
 }
 

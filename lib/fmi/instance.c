@@ -214,8 +214,10 @@ enum instance_status instance_get(struct instance *instance, const char *functio
     if (count > 0 && !update(instance, function)) return instance_error;
     for (size_t i = 0; i < count; i++) {
         const bool exchanged = instance->continuous && !plant_is_given(plant, references[i]);
-        values[i] = exchanged ? continuous_value(instance->continuous, references[i])
-                              : plant_get(plant, references[i]);
+        if (exchanged)
+            values[i] = continuous_value(instance->continuous, references[i]);
+        else if (!plant_get(plant, references[i], &values[i]))
+            return instance_fail(instance, function, plant->reason);
     }
     return instance_ok;
 }

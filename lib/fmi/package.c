@@ -213,7 +213,7 @@ size_t package_integral(const fbd_variable *variable, size_t index)
     return derivative ? index - 1 : 0;
 }
 
-static void add_name(struct text *text, const fbd_variable *variable)
+void package_variable_name(const fbd_variable *variable, struct text *text)
 {
     if (variable->kind == FBD_VARIABLE_TIME)
         text_add(text, "time");
@@ -232,7 +232,7 @@ static void take_attribute(struct text *xml, const char *name, struct text *text
 void xml_variable_name(struct text *xml, const fbd_variable *variable)
 {
     struct text name = {0};
-    add_name(&name, variable);
+    package_variable_name(variable, &name);
     take_attribute(xml, "name", &name);
 }
 
@@ -256,7 +256,7 @@ void xml_description(struct text *xml, const struct package *package, size_t ind
     case FBD_VARIABLE_RATE:
     case FBD_VARIABLE_ACCELERATION:
         text_add(&text, "rate of change of ");
-        add_name(&text, variable - 1);
+        package_variable_name(variable - 1, &text);
         break;
     case FBD_VARIABLE_STATE: text_add(&text, "state of the model file"); break;
     case FBD_VARIABLE_POINT: text_add(&text, "of a point"); break;
@@ -266,10 +266,13 @@ void xml_description(struct text *xml, const struct package *package, size_t ind
 
 void xml_extra_description(struct text *xml, const struct extra *extra)
 {
-    static const char *const words[] = {[extra_force] = "force, moment or reaction",
-                                        [extra_rate] = "rate of change of a state of the model file",
-                                        [extra_indicator] = "event indicator: negative past an event"};
-    xml_attribute(xml, "description", words[extra->kind]);
+    static const char *const of_columns[] = {[FBD_COLUMN_FORCE] = "force, moment or reaction",
+                                             [FBD_COLUMN_ENERGY] = "energy",
+                                             [FBD_COLUMN_WORK] = "work since the start"};
+    static const char *const others[] = {[extra_rate] = "rate of change of a state of the model file",
+                                         [extra_indicator] = "event indicator: negative past an event"};
+    xml_attribute(xml, "description",
+                  extra->kind == extra_column ? of_columns[extra->column] : others[extra->kind]);
 }
 
 /* ---- the token */
@@ -328,8 +331,9 @@ static bool take_line(struct package_settings *settings, char *line, const char 
     if (strcmp(line, "tolerance") == 0) return take_number(value, &settings->run.tolerance);
     if (strcmp(line, "step") == 0) return take_number(value, &settings->run.step);
     if (strcmp(line, "method") == 0) settings->run.method = value;
+    if (strcmp(line, "outputs") == 0) settings->outputs = value;
     if (strcmp(line, "structure") == 0) settings->run.no_structure = true;
-    return strcmp(line, "method") == 0 || strcmp(line, "structure") == 0;
+    return strcmp(line, "method") == 0 || strcmp(line, "outputs") == 0 || strcmp(line, "structure") == 0;
 }
 
 bool package_settings_read(struct package_settings *settings, char *text, const char *resources)

@@ -49,6 +49,7 @@ struct package_settings {
     fbd_options run;
     fbd_setting *list; /* of parameters and tables */
     size_t count;
+    const char *outputs; /* columns that are outputs, separated by commas; or NULL */
 };
 
 /* Read them from `text`, which is cut into pieces; tables are in the folder `resources`. Returns false when
@@ -89,7 +90,8 @@ bool package_is_initial_unknown(const struct package *package, size_t index);
 /* The variable whose derivative by time is variable `index`, or 0. */
 size_t package_integral(const fbd_variable *variable, size_t index);
 
-/* Append the name of a variable, escaped, as an attribute. */
+/* Append the name of a variable: as it is, and escaped, as an attribute. */
+void package_variable_name(const fbd_variable *variable, struct text *text);
 void xml_variable_name(struct text *xml, const fbd_variable *variable);
 
 /* Are states and their derivatives declared: for directional derivatives, or for model exchange? Is the variable such a

@@ -106,7 +106,8 @@ def variables_are_those_of_the_model():
             "sled.x": ("output", "ft"), "sled.v": ("output", "ft/s"), "sled.v_dot": ("output", "ft/s^2"),
             "wheel.theta": ("output", "rad"), "wheel.omega": ("output", "rad/s"), "wheel.omega_dot": ("output", "rad/s^2"),
             "sled.gravity": ("local", "lbf"), "sled.applied": ("local", "lbf"), "wheel.applied": ("local", "lbf*ft"),
-            "wheel.pin.x": ("local", "lbf"), "wheel.pin.y": ("local", "lbf")}
+            "wheel.pin.x": ("local", "lbf"), "wheel.pin.y": ("local", "lbf"),
+            "energy.kinetic": ("local", "ft*lbf"), "energy.potential": ("local", "ft*lbf")}
         assert found == want, found
         assert fmu.variables["push"].description == '<to> the "right" & back'
         assert fmu.xml.get("description") == 'Names & <signs> that "XML" minds: größer'
@@ -118,7 +119,7 @@ def variables_are_those_of_the_model():
 
 
 BASES = {"kg", "m", "s", "rad"}
-FACTORS = {"lbf": 4.4482216152605, "slug": 14.593902937206364, "ft": 0.3048, "ft/s": 0.3048, "ft/s^2": 0.3048, "lbf*ft": 1.3558179483314003}
+FACTORS = {"lbf": 4.4482216152605, "slug": 14.593902937206364, "ft": 0.3048, "ft/s": 0.3048, "ft/s^2": 0.3048, "lbf*ft": 1.3558179483314003, "ft*lbf": 1.3558179483314003}
 
 
 def units_have_their_dimension_and_size():
@@ -137,6 +138,13 @@ def units_have_their_dimension_and_size():
         for name, base in units.items():
             want = FACTORS.get(name, 1)
             assert close(float(base.get("factor", 1)), want, want, 1e-12), (name, base)
+
+
+TWICE = """fbd: 1
+parameters: {{{0}: 2 N}}
+bodies: {{energy: {{mass: 1 kg, motion: slide, forces: [applied: {{name: {1}, value: {0}}}]}}}}
+simulate: {{until: 1 s}}
+"""
 
 
 def the_structure_lists_what_the_standard_asks_for():
@@ -189,6 +197,8 @@ def forces_are_variables_and_outputs_where_they_are_chosen():
         check_close(instance.get(names), {name: rows[-1][name] for name in names}, 1e-7)
         instance.free()
     fails(2, "--fmu", Path(FOLDER.name) / "wrong.fmu", "--fmu-outputs", "block.fiction", place(STICKS), words="block.friction")
+    for scene, name in ((TWICE.format("time", "push"), "time"), (TWICE.format("F", "kinetic"), "energy.kinetic")):
+        fails(1, "--fmu", Path(FOLDER.name) / "twice.fmu", place(scene), words=f"`{name}`")
     fails(2, "--fmu-outputs", "block.friction", place(STICKS), words="--fmu")
 
 

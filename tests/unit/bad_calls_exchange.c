@@ -42,6 +42,14 @@ void exchanges(void **context)
             !fbd_force_columns_name(NULL, 0) && !fbd_force_columns_name(columns, past));
     ANSWERS(fbd_force_columns_unit,
             !fbd_force_columns_unit(NULL, 0) && !fbd_force_columns_unit(columns, past));
+    ANSWERS(fbd_force_columns_kind, fbd_force_columns_kind(NULL, 0) == FBD_COLUMN_FORCE &&
+                                        fbd_force_columns_kind(columns, past) == FBD_COLUMN_FORCE);
+    fbd_simulation *simulation = fbd_simulation_new(other, NULL, NULL);
+    assert_non_null(simulation);
+    ANSWERS(fbd_force_columns_follow, !fbd_force_columns_follow(NULL, simulation) &&
+                                          !fbd_force_columns_follow(columns, NULL) &&
+                                          !fbd_force_columns_follow(columns, simulation));
+    fbd_simulation_free(simulation);
     ANSWERS(fbd_force_columns_values, !fbd_force_columns_values(columns, foreign, numbers) &&
                                           !fbd_force_columns_values(NULL, state, numbers));
     fbd_force_columns_free(columns);
