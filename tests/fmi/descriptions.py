@@ -7,10 +7,11 @@ import re
 import shutil
 import subprocess
 import sys
+import xml.etree.ElementTree as ElementTree
 import zipfile
 from pathlib import Path
 
-from fmu import OK, RUN, Fmu
+from fmu import OK, RUN, Fmu, make_fmu
 from claims_of_fmus import FOLDER, MODELS, STICKS, check_close, close, fmu_of, place, run_claims, run_csv
 
 NAMED = """fbd: 1
@@ -259,9 +260,31 @@ def what_makes_no_sense_is_refused():
     assert not target.exists()
 
 
+def sources_on_request_are_whole():
+    """Each header that one includes is there, each file that the description lists, and only once."""
+    tool = Path(os.environ["FBD_SOURCE_ROOT"]) / "packaging/fmu-sources"
+    for version in (2, 3):
+        path = make_fmu(place(NAMED), f"{FOLDER.name}/sources{version}.fmu", "--fmu-version", version)
+        subprocess.run([tool, path], check=True)
+        with zipfile.ZipFile(path) as archive:
+            names = set(archive.namelist())
+            root = ElementTree.fromstring(archive.read("sources/buildDescription.xml" if version == 3 else "modelDescription.xml"))
+            texts = {name: archive.read(name).decode() for name in names if name.endswith((".c", ".h"))}
+        listed = [element.get("name") for element in root.iter("SourceFile" if version == 3 else "File")]
+        interfaces = 2 if version == 2 else 1
+        assert sorted(listed) == sorted(interfaces * [name.removeprefix("sources/") for name in names if name.endswith(".c")])
+        for name, text in texts.items():
+            for header in re.findall(r'^#include "([^"]+)"', text, re.MULTILINE):
+                assert "sources/" + header in names, (name, header)
+        assert Fmu(path, f"{FOLDER.name}/with{version}").open().go_to(0.1)[0] == OK
+        done = subprocess.run([tool, path], stderr=subprocess.PIPE, check=False, text=True)
+        assert done.returncode == 1 and "already" in done.stderr
+
+
 CLAIMS = [an_archive_has_its_files, the_binary_shows_the_functions_of_the_standard_and_needs_the_C_library,
           variables_are_those_of_the_model, units_have_their_dimension_and_size,
           the_structure_lists_what_the_standard_asks_for, forces_are_variables_and_outputs_where_they_are_chosen, tokens_tell_models_apart, settings_go_along,
-          an_FMU_is_moved_and_its_table_goes_along, what_makes_no_sense_is_refused]
+          an_FMU_is_moved_and_its_table_goes_along, sources_on_request_are_whole,
+          what_makes_no_sense_is_refused]
 
 sys.exit(run_claims(CLAIMS))
