@@ -168,6 +168,12 @@ def ropes_bodies_that_strike_and_switches_in_time():
     compare("data/measured_push.yaml", 0.001, 1e-12, 0.2)
 
 
+def a_mechanism_at_rest_asks_for_no_events():
+    importer = Importer("statics/truss.yaml", 3)
+    importer.go_to(0.1, 1e-3)
+    assert importer.events == 0, importer.events
+
+
 # ---- inputs
 
 DRIVEN = """fbd: 1
@@ -259,6 +265,7 @@ def calls_of_the_other_interface_are_refused():
 
 CLAIMS = [a_motion_without_events_is_integrated, errors_fall_with_the_fourth_power_of_the_step_past_events,
           a_ball_bounces_and_comes_to_rest, mechanisms_stay_closed, ropes_bodies_that_strike_and_switches_in_time,
+          a_mechanism_at_rest_asks_for_no_events,
           an_input_changes_within_steps, an_input_jumps_in_event_mode,
           a_scene_of_more_than_500_numbers_has_inputs,
           an_event_of_the_file_ends_it_and_parameters_can_be_set,
