@@ -213,6 +213,11 @@ gallery: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	docs/make-gallery $(BUILD)/apps/fbd-run
 
+# FMUs beside what others have published: schemas, headers, FMPy (docs/fmi.md, Tests). What is absent is skipped.
+fmu-importer: all
+	FBD_SOURCE_ROOT=$(CURDIR) FBD_BUILD_ROOT=$(CURDIR)/$(BUILD) FBD_RUN=$(CURDIR)/$(BUILD)/apps/fbd-run \
+		/usr/bin/python3 tests/fmi/published.py
+
 # The Python module with this build's library in it, in an environment of its own: build-python/bin/python.
 python: all
 	.ci/install-packages python
@@ -344,5 +349,5 @@ $(BUILD)-count/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run reference engines portability satellites mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects instructions error-bars event-bars events late-times implicit tighter methods impacts failures gallery python wheel sdist sdist-check live live-check lsp-check site check-format format lint install uninstall dist dist-check recipes recipes-check pages deb deb-check clean
+.PHONY: all run reference engines portability satellites mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects instructions error-bars event-bars events late-times implicit tighter methods impacts failures gallery python wheel sdist sdist-check fmu-importer live live-check lsp-check site check-format format lint install uninstall dist dist-check recipes recipes-check pages deb deb-check clean
 .SECONDARY:

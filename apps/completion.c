@@ -10,26 +10,39 @@ struct piece {
     int length;
 };
 
-/* The first line of the description after `--name ...   ` in the help, without characters special to shells
- * or lists. */
-static struct piece doc_in(const char *help, const char *name)
+enum { longest_words = 40 };
+
+/* The text behind `--name` at the begin of a line of the help, or NULL. */
+static const char *behind_in(const char *help, const char *name)
 {
-    size_t length = strlen(name);
-    for (const char *at = help; (at = strstr(at, "  --")) != NULL; at += 4) {
-        if (strncmp(at + 4, name, length) != 0 || !strchr(" ,\n|", at[4 + length])) continue;
-        const char *doc = strstr(at + 4 + length, "  ");
-        const char *end = at + 4 + strcspn(at + 4, "\n");
-        if (!doc || doc > end) return (struct piece){"", 0};
-        doc += strspn(doc, " ");
-        return (struct piece){doc, (int)strcspn(doc, "'[]:(;\n")};
-    }
-    return (struct piece){"", 0};
+    const size_t length = strlen(name);
+    for (const char *at = help; (at = strstr(at, "\n  --")) != NULL; at += 5)
+        if (strncmp(at + 5, name, length) == 0 && strchr(" ,\n|", at[5 + length])) return at + 5 + length;
+    return NULL;
 }
 
+static const char *behind(const struct command_line *line, const char *name)
+{
+    const char *at = behind_in(line->help[0], name);
+    return at || !line->help[1] ? at : behind_in(line->help[1], name);
+}
+
+/* The first line of the description after `--name ...   ` in the help, without characters special to shells
+ * or lists. */
 static struct piece doc_of(const struct command_line *line, const char *name)
 {
-    struct piece doc = doc_in(line->help[0], name);
-    return doc.length == 0 && line->help[1] ? doc_in(line->help[1], name) : doc;
+    const char *at = behind(line, name), *doc = at ? strstr(at, "  ") : NULL;
+    if (!doc || doc > at + strcspn(at, "\n")) return (struct piece){"", 0};
+    doc += strspn(doc, " ");
+    return (struct piece){doc, (int)strcspn(doc, "'[]:(;\n")};
+}
+
+/* The word for its value in the help: FILE, NAME, 2|3. */
+static struct piece value_of(const struct command_line *line, const char *name)
+{
+    const char *at = behind(line, name);
+    if (!at || at[0] != ' ') return (struct piece){"", 0};
+    return (struct piece){at + 1, (int)strcspn(at + 1, " \n")};
 }
 
 /* ---- shells */
@@ -42,33 +55,53 @@ struct named {
 static const struct named *named_by(const char *option)
 {
     static const struct named all[] = {
-        {"set", "parameters", "="}, {"vary", "parameters", "="}, {"method", "methods", ""},
-        {"body", "bodies", ""},     {"without", "effects", ""},  {"example", "examples", ""},
+        {"set", "parameters", "="},    {"vary", "parameters", "="}, {"method", "methods", ""},
+        {"body", "bodies", ""},        {"without", "effects", ""},  {"example", "examples", ""},
+        {"fmu-outputs", "forces", ""},
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (strcmp(option, all[i].option) == 0) return &all[i];
     return NULL;
 }
 
-/* True if the value of the option is a file. */
-static bool takes_file(const char *name)
+static bool ends_in(struct piece piece, const char *end)
 {
-    static const char *const files[] = {"csv", "json", "html", "plot", "gnuplot", "svg", "emit-c"};
-    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
-        if (strcmp(name, files[i]) == 0) return true;
-    return false;
+    const int length = (int)strlen(end);
+    return piece.length >= length && strncmp(piece.text + piece.length - length, end, (size_t)length) == 0;
+}
+
+static bool takes_file(const struct command_line *line, const char *name)
+{
+    const struct piece value = value_of(line, name);
+    return ends_in(value, "FILE") || ends_in(value, "KEY") || ends_in(value, ".csv");
+}
+
+/* The words that the value may be, separated by blanks; "" for others. */
+static const char *words_of(const struct command_line *line, const char *name, char words[longest_words])
+{
+    struct piece value = value_of(line, name);
+    if (strcmp(name, "completion") == 0) return "bash zsh fish";
+    words[0] = '\0';
+    if (!memchr(value.text, '|', (size_t)value.length) || memchr(value.text, '=', (size_t)value.length) ||
+        value.length >= longest_words)
+        return words;
+    for (int i = 0; i < value.length; i++) words[i] = value.text[i] == '|' ? ' ' : value.text[i];
+    words[value.length] = '\0';
+    return words;
 }
 
 static void write_bash_value(const struct command_line *line, const char *option)
 {
     const struct named *named = named_by(option);
+    char room[longest_words];
+    const char *words = words_of(line, option, room);
     printf("    --%s)", option);
     if (named)
         printf(" COMPREPLY=($(compgen -S '%s' -W \"$(%s --completion %s \"$model\" 2>/dev/null)\" -- "
                "\"$word\"));",
                named->end, line->program, named->kind);
     if (named && *named->end) printf(" compopt -o nospace 2>/dev/null;");
-    if (strcmp(option, "completion") == 0) printf(" COMPREPLY=($(compgen -W 'bash zsh fish' -- \"$word\"));");
+    if (*words) printf(" COMPREPLY=($(compgen -W '%s' -- \"$word\"));", words);
     printf(" return ;;\n");
 }
 
@@ -80,7 +113,7 @@ static void write_bash(const struct command_line *line)
            "[[ $model == *.y?(a)ml ]] && break\n        model=\n    done\n    case $before in\n",
            line->program, function);
     for (const struct option *o = line->options; o->name; o++)
-        if (o->has_arg == required_argument && !takes_file(o->name)) write_bash_value(line, o->name);
+        if (o->has_arg == required_argument && !takes_file(line, o->name)) write_bash_value(line, o->name);
     printf("    esac\n    if [[ $word == -* ]]; then\n        COMPREPLY=($(compgen -W '");
     for (const struct option *o = line->options; o->name; o++)
         printf("%s--%s", o == line->options ? "" : " ", o->name);
@@ -104,11 +137,13 @@ static void write_zsh(const struct command_line *line)
                    o->name, doc.length, doc.text, *named->end ? named->end : " ", line->program, named->kind);
             continue;
         }
-        printf("        '*--%s[%.*s]%s' \\\n", o->name, doc.length, doc.text,
-               !value                               ? ""
-               : takes_file(o->name)                ? ":file:_files"
-               : strcmp(o->name, "completion") == 0 ? ":shell:(bash zsh fish)"
-                                                    : ":value:");
+        char room[longest_words];
+        const char *words = value ? words_of(line, o->name, room) : "";
+        printf("        '*--%s[%.*s]%s%s%s%s' \\\n", o->name, doc.length, doc.text,
+               !value                      ? ""
+               : takes_file(line, o->name) ? ":file:_files"
+                                           : ":value:",
+               *words ? "(" : "", words, *words ? ")" : "");
     }
     printf("        '*:model:_files -g \"*.yaml\"'\n}\n"
            /* When autoloaded from fpath, the function completes at once. */
@@ -130,12 +165,14 @@ static void write_fish(const struct command_line *line)
                    line->program, o->name, line->program, named->kind, named->end, doc.length, doc.text);
             continue;
         }
-        printf("complete -c %s -l %s%s -d '%.*s'\n", line->program, o->name,
-               !value                               ? ""
-               : takes_file(o->name)                ? " -r -F"
-               : strcmp(o->name, "completion") == 0 ? " -x -a 'bash zsh fish'"
-                                                    : " -x",
-               doc.length, doc.text);
+        char room[longest_words];
+        const char *words = value ? words_of(line, o->name, room) : "";
+        printf("complete -c %s -l %s%s", line->program, o->name,
+               !value                      ? ""
+               : takes_file(line, o->name) ? " -r -F"
+                                           : " -x");
+        if (*words) printf(" -a '%s'", words);
+        printf(" -d '%.*s'\n", doc.length, doc.text);
     }
 }
 

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "fbd_exchange.h"
 #include "fbd_export.h"
 #include "fbd_study.h"
 #include "fbd_view.h"
@@ -45,6 +46,13 @@ static void write_effects(const fbd_model *model)
     fbd_free(controls);
 }
 
+static void write_forces(const fbd_model *model)
+{
+    fbd_force_columns *columns = fbd_force_columns_new(model);
+    for (size_t i = 0; i < fbd_force_columns_count(columns); i++) puts(fbd_force_columns_name(columns, i));
+    fbd_force_columns_free(columns);
+}
+
 bool model_names_write(const char *kind, const char *path)
 {
     static const struct {
@@ -52,10 +60,9 @@ bool model_names_write(const char *kind, const char *path)
         void (*write)(const fbd_model *model);
         bool of_model;
     } kinds[] = {
-        {"methods", write_methods, false},
-        {"parameters", write_parameters, true},
-        {"bodies", write_bodies, true},
-        {"effects", write_effects, true},
+        {"methods", write_methods, false}, {"parameters", write_parameters, true},
+        {"bodies", write_bodies, true},    {"effects", write_effects, true},
+        {"forces", write_forces, true},
     };
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         if (strcmp(kind, kinds[i].kind) != 0) continue;

@@ -82,7 +82,7 @@ const char options_help_without_run[] =
     "  --check              read the file and report its errors, and those of its start\n"
     "  --fmu FILE           the model as an FMU, for other simulators (ends in .fmu)\n"
     "  --fmu-version 2|3    version of the standard, FMI 2.0 or 3.0 (default 3)\n"
-    "  --fmu-outputs NAMES  forces and reactions that are its outputs, separated by commas\n"
+    "  --fmu-outputs NAMES  forces, reactions and works that are its outputs, with commas\n"
     "\n"
     "Answers of students (fbd-run --grade KEY.yaml ANSWER.yaml...)\n"
     "  --grade KEY          compare each answer with the forces, moments and derivations of this model file\n"

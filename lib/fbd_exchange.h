@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * fbd_exchange: models within other simulators: integration by another program, and forces as columns. The rules of fbd.h
- * apply.
+ * fbd_exchange: models within other simulators: integration by another program; forces, energies and works as columns. The
+ * rules of fbd.h apply.
  */
 #ifndef FBD_EXCHANGE_H
 #define FBD_EXCHANGE_H
@@ -38,6 +38,12 @@ FBD_API size_t fbd_exchange_indicator_count(const fbd_exchange *exchange);
 FBD_API void fbd_exchange_set(fbd_exchange *exchange, double t, const double *numbers);
 FBD_API void fbd_exchange_get(const fbd_exchange *exchange, double *t, double *numbers);
 
+/* Set an input, in coherent units, from the present time on: of a model in which the input has no callback function
+ * (fbd_model_with_callbacks). False with a note in `errors`: `unknown-input`, `fixed-input`, or `bad-call` for a value that is
+ * not finite. */
+FBD_API bool fbd_exchange_set_input(fbd_exchange *exchange, const char *name, double value,
+                                    fbd_errors *errors);
+
 /* The derivatives of the numbers by time, and the indicators, in the present modes. False when a derivative is not
  * finite. */
 FBD_API bool fbd_exchange_derivatives(fbd_exchange *exchange, double *derivatives);
@@ -56,10 +62,17 @@ FBD_API const char *fbd_exchange_reason(const fbd_exchange *exchange);
 /* Copy the present values and modes into a state of the same model. False for another one. */
 FBD_API bool fbd_exchange_state(fbd_exchange *exchange, fbd_state *state);
 
-/* ---------------------------------------------------------------- forces as columns */
+/* ---------------------------------------------------------------- forces, energies and works as columns */
 
-/* The columns of forces, moments and reactions of a CSV with ledger, by their names ("block.friction", "bob.pin.x"). */
+/* Columns of a CSV with ledger, by their names: forces, moments and reactions ("block.friction", "bob.pin.x"), energies
+ * ("energy.kinetic") and works ("block.friction.work"). */
 typedef struct fbd_force_columns fbd_force_columns;
+
+typedef enum {
+    FBD_COLUMN_FORCE,  /* a force, moment or reaction, at a state in its modes */
+    FBD_COLUMN_ENERGY, /* kinetic or potential, at a state */
+    FBD_COLUMN_WORK    /* a work, or the residual of the energy: since the start of a simulation */
+} fbd_column_kind;
 
 /* NULL when memory is out. The model must outlive them. */
 FBD_API fbd_force_columns *fbd_force_columns_new(const fbd_model *model);
@@ -69,8 +82,15 @@ FBD_API size_t fbd_force_columns_count(const fbd_force_columns *columns);
 /* Name and unit of a column; live as long as the columns, NULL past the last one. */
 FBD_API const char *fbd_force_columns_name(const fbd_force_columns *columns, size_t index);
 FBD_API const char *fbd_force_columns_unit(const fbd_force_columns *columns, size_t index);
+FBD_API fbd_column_kind fbd_force_columns_kind(const fbd_force_columns *columns, size_t index);
 
-/* Their values at a state, in its modes. False when the state is not of the model, or memory is out. */
+/* Integrate works along a simulation that has made no step: from then on its last step has them. The columns are freed
+ * before it; its steps are made by fbd_simulation_advance, without fbd_simulation_set_input. False when memory is out, or
+ * for another simulation. */
+FBD_API bool fbd_force_columns_follow(fbd_force_columns *columns, fbd_simulation *simulation);
+
+/* Their values at a state. Works are those up to its time, if that lies in the last step of the simulation, and otherwise
+ * NAN. False when the state is not of the model, or memory is out. */
 FBD_API bool fbd_force_columns_values(fbd_force_columns *columns, fbd_state *state, double *values);
 
 #ifdef __cplusplus

@@ -247,15 +247,17 @@ typedef struct fbd_fmu_options {
     const fbd_setting *settings; /* those that the model was read with: they become its start values */
     size_t setting_count;
     const fbd_options *run; /* NULL for the file's; without error bars and accuracy */
-    /* forces, moments and reactions that are outputs, by their names in the CSV with ledger, separated by commas; NULL:
-     * all are local variables, and there may be directional derivatives */
+    /* forces, reactions, energies and works that are outputs, by their names in the CSV with ledger, separated by commas;
+     * NULL: forces, reactions, kinetic and potential energy are local variables, and there may be directional
+     * derivatives. With a work the FMU is for co-simulation only. */
     const char *outputs;
 } fbd_fmu_options;
 
 /* The FMU for co-simulation, and for model exchange where that can be had (fbd_model_exchanges), with that binary, as
  * bytes of a zip archive, to be freed with fbd_free; *length is their number. NULL with notes in `errors`: those of wrong
  * options (see fbd_simulation_new), also for an input that a callback computes, of an inadmissible start (see
- * fbd_state_close), `cannot-read` for the data file of a table, `bad-call`, or memory is out. */
+ * fbd_state_close), `unknown-output`, `duplicate-name` where two variables would have one name, `cannot-read` for the data
+ * file of a table, `bad-call`, or memory is out. */
 FBD_API char *fbd_fmu(const fbd_model *model, const fbd_fmu_options *options, size_t *length,
                       fbd_errors *errors);
 

@@ -53,13 +53,20 @@ static bool place_callbacks(const struct scene *scene, const fbd_callback *callb
     return true;
 }
 
-static bool fits(const fbd_model *model, fbd_errors *errors)
+static bool has_functions(const fbd_callback *callbacks, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (callbacks[i].function) return true;
+    return false;
+}
+
+static bool fits(const fbd_model *model, const fbd_callback *callbacks, size_t count, fbd_errors *errors)
 {
     if (model->root) {
         api_refuse(errors, "a model made from a document has no callbacks: parse its text");
         return false;
     }
-    if (plan_size(&model->plan) <= most_called_numbers) return true;
+    if (plan_size(&model->plan) <= most_called_numbers || !has_functions(callbacks, count)) return true;
     api_refuse(errors, "a model with more than 500 coordinates, rates and user states has no callbacks");
     return false;
 }
@@ -85,7 +92,7 @@ static fbd_model *with_callbacks(const fbd_model *model, const fbd_callback *cal
                                  fbd_errors *errors)
 {
     diag_in_file(errors, model->scene->file);
-    if (!fits(model, errors)) return NULL;
+    if (!fits(model, callbacks, count, errors)) return NULL;
     char *source = file_copy(model->source, model->source_length, errors);
     struct scene *scene = source ? read_again(model, callbacks, count, errors) : NULL;
     fbd_model *made = scene ? model_compile(scene, errors) : NULL;

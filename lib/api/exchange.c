@@ -5,9 +5,11 @@
 #include "loop/exchange.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "api/set_input.h"
 #include "base/api_check.h"
 #include "base/diag.h"
 #include "fbd_exchange.h"
@@ -93,6 +95,25 @@ void fbd_exchange_get(const fbd_exchange *exchange, double *t, double *numbers)
     if (exchange && numbers)
         memcpy(numbers, exchange->exchange.run->state->y,
                fbd_exchange_number_count(exchange) * sizeof *numbers);
+}
+
+static bool set_input(struct exchange *exchange, const char *name, double value, fbd_errors *errors)
+{
+    const size_t input = settable_input(exchange->run->model->scene, name, errors);
+    if (input == SIZE_MAX) return false;
+    exchange_set_input(exchange, input, value);
+    return true;
+}
+
+bool fbd_exchange_set_input(fbd_exchange *exchange, const char *name, double value, fbd_errors *list)
+{
+    struct diag_call call;
+    fbd_errors *errors = diag_begin(&call, list);
+    const bool meant = exchange && name && isfinite(value);
+    if (!meant) api_refuse(errors, "there is no motion or no name of an input, or its value is not finite");
+    const bool set = meant && set_input(&exchange->exchange, name, value, errors);
+    diag_end(&call);
+    return set;
 }
 
 bool fbd_exchange_derivatives(fbd_exchange *exchange, double *derivatives)

@@ -5,6 +5,8 @@
  * A jump of an input is a point where the forces are not smooth, and modes may change: a body that sticks breaks away.
  * So the run ends there, and another one of the same model begins at its state, with the modes decided as at a start.
  */
+#include "api/set_input.h"
+
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -14,8 +16,7 @@
 #include "base/api_check.h"
 #include "fbd.h"
 
-/* The index of an input that can be set; SIZE_MAX with a note otherwise. */
-static size_t settable(const struct scene *scene, const char *name, fbd_errors *errors)
+size_t settable_input(const struct scene *scene, const char *name, fbd_errors *errors)
 {
     const char *known[32];
     size_t count = 0;
@@ -150,7 +151,7 @@ static bool set_input(fbd_simulation *simulation, double t, const char *name, do
                       fbd_errors *errors)
 {
     struct ensemble *ensemble = simulation->ensemble;
-    const size_t input = settable(ensemble->model->scene, name, errors);
+    const size_t input = settable_input(ensemble->model->scene, name, errors);
     if (input == SIZE_MAX) return false;
     struct fbd_state *start = state_new(ensemble->model);
     if (!start || !ensemble_look(ensemble, t, start)) {

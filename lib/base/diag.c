@@ -353,6 +353,14 @@ const fbd_error *diag_get(fbd_errors *errors, size_t index)
     return note ? &note->error : NULL;
 }
 
+const fbd_error *diag_first_error(fbd_errors *errors)
+{
+    const fbd_error *note;
+    for (size_t i = 0; (note = diag_get(errors, i)) != NULL; i++)
+        if (note->severity == FBD_ERROR) return note;
+    return NULL;
+}
+
 fbd_error fbd_errors_get(fbd_errors *errors, size_t index)
 {
     const fbd_error *error = diag_get(errors, index);

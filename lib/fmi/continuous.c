@@ -17,8 +17,7 @@ static bool fail(struct continuous *continuous, const char *reason)
 
 static bool fail_by(struct continuous *continuous, fbd_errors *errors)
 {
-    const fbd_error *first = diag_get(errors, 0);
-    for (size_t i = 0; first && first->severity == FBD_WARNING; i++) first = diag_get(errors, i);
+    const fbd_error *first = diag_first_error(errors);
     return fail(continuous, first ? first->message : "out of memory");
 }
 
@@ -39,7 +38,6 @@ void continuous_drop(struct continuous *continuous)
     fbd_exchange_free(continuous->exchange);
     fbd_state_free(continuous->state);
     fbd_model_free(continuous->model);
-    fbd_model_free(continuous->file);
     free(continuous->numbers);
     *continuous = (struct continuous){.plant = continuous->plant, .reason = ""};
 }
@@ -73,8 +71,9 @@ static bool make_motion(struct continuous *continuous, fbd_errors *errors)
 {
     struct plant *plant = continuous->plant;
     const fbd_options options = plant_options(plant);
-    continuous->file = plant_model(plant, errors);
-    if (continuous->file) continuous->model = extra_model(continuous->file, plant->values, errors);
+    fbd_model *file = plant_model(plant, errors);
+    if (file) continuous->model = extra_model(file, errors);
+    fbd_model_free(file);
     if (continuous->model) continuous->state = fbd_state_new(continuous->model);
     if (!continuous->state) return false;
     fbd_state_set(continuous->state, "t", plant->start);
@@ -113,9 +112,12 @@ static void put(struct continuous *continuous)
     continuous->is_shown = false;
 }
 
-void continuous_touch(struct continuous *continuous)
+void continuous_set_input(struct continuous *continuous, size_t parameter, double value)
 {
-    if (continuous->numbers) put(continuous);
+    if (!continuous->numbers) return;
+    fbd_exchange_set_input(continuous->exchange, fbd_model_parameter(continuous->model, parameter).name,
+                           value, NULL);
+    continuous->is_shown = false;
 }
 
 void continuous_set_time(struct continuous *continuous, double t)
@@ -168,7 +170,7 @@ double continuous_value(struct continuous *continuous, size_t index)
     }
     if (index < plant->variable_count) return continuous->shown[index];
     const struct extra *extra = &plant->extras.list[index - plant->variable_count];
-    if (extra->kind == extra_force) return continuous->pulls[extra->index];
+    if (extra->kind == extra_column) return continuous->pulls[extra->index];
     if (extra->kind == extra_rate) {
         fbd_exchange_derivatives(continuous->exchange, continuous->spare);
         return continuous->spare[2 * continuous->coordinates + extra->index];

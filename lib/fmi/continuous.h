@@ -13,8 +13,7 @@
 
 struct continuous {
     struct plant *plant; /* its values are those of parameters and inputs */
-    fbd_model *file;     /* with the parameters */
-    fbd_model *model;    /* the same, with inputs that may change; NULL until continuous_ready */
+    fbd_model *model;    /* with inputs that may change; NULL until continuous_ready */
     fbd_exchange *exchange;
     fbd_state *state;
     fbd_force_columns *forces;
@@ -36,8 +35,8 @@ void continuous_drop(struct continuous *continuous);
 /* Make the motion at the start, if it has not been made. False with a reason. */
 bool continuous_ready(struct continuous *continuous);
 
-/* An input has changed. */
-void continuous_touch(struct continuous *continuous);
+/* Set an input, by its index among the parameters, to a finite value. Before continuous_ready it is that of the plant. */
+void continuous_set_input(struct continuous *continuous, size_t parameter, double value);
 
 void continuous_set_time(struct continuous *continuous, double t);
 void continuous_set(struct continuous *continuous, const double *states);

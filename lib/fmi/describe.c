@@ -6,39 +6,19 @@
 
 static void begin(const struct package *package, struct text *xml)
 {
-    const char *title = fbd_model_title(package->model);
-    text_add(xml, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription fmiVersion=\"3.0\"");
-    xml_attribute(xml, "modelName", package->name);
-    xml_attribute(xml, "instantiationToken", package->token);
-    if (title[0]) xml_attribute(xml, "description", title);
-    xml_attribute(xml, "license", "GPL-3.0-or-later");
-    xml_attribute(xml, "generationTool", "fbd " FBD_VERSION);
-    xml_attribute(xml, "variableNamingConvention", "structured");
+    xml_head(package, "3.0", "instantiationToken", xml);
     text_add(xml, ">\n");
-    if (package->extras.exchanges) {
-        text_add(xml, "  <ModelExchange");
-        xml_attribute(xml, "modelIdentifier", package->name);
-        text_add(xml, " needsCompletedIntegratorStep=\"true\"/>\n");
-    }
-    text_add(xml, "  <CoSimulation");
-    xml_attribute(xml, "modelIdentifier", package->name);
-    text_add(xml, " canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\"");
-    if (package->has_derivatives)
-        text_add(xml, " providesDirectionalDerivatives=\"true\" providesAdjointDerivatives=\"true\"");
-    text_add(xml, " canHandleVariableCommunicationStepSize=\"true\" mightReturnEarlyFromDoStep=\"true\""
-                  " hasEventMode=\"true\"/>\n");
-}
-
-static void experiment(const struct package *package, struct text *xml)
-{
-    text_add(xml, "  <LogCategories>\n"
-                  "    <Category name=\"logStatusError\" description=\"errors\"/>\n"
-                  "    <Category name=\"logStatusWarning\" description=\"warnings\"/>\n"
-                  "    <Category name=\"logEvents\" description=\"events of the motion\"/>\n"
-                  "  </LogCategories>\n  <DefaultExperiment startTime=\"0\"");
-    xml_number(xml, "stopTime", package->until);
-    xml_number(xml, "tolerance", package->tolerance);
-    text_add(xml, "/>\n");
+    if (package->extras.exchanges)
+        xml_interface(package, "ModelExchange", " needsCompletedIntegratorStep=\"true\"", "", xml);
+    const char *derivatives =
+        package->has_derivatives
+            ? " providesDirectionalDerivatives=\"true\" providesAdjointDerivatives=\"true\""
+            : "";
+    xml_interface(package, "CoSimulation",
+                  " canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\""
+                  " canHandleVariableCommunicationStepSize=\"true\" mightReturnEarlyFromDoStep=\"true\""
+                  " hasEventMode=\"true\"",
+                  derivatives, xml);
 }
 
 static const char *causality(enum fmi_causality kind)
@@ -93,7 +73,7 @@ static void extra_unknowns(const struct package *package, enum extra_kind kind, 
 {
     for (size_t i = 0; i < package->extras.count; i++) {
         const struct extra *extra = &package->extras.list[i];
-        if (extra->kind == kind && (extra->output || kind != extra_force))
+        if (extra->kind == kind && (extra->output || kind != extra_column))
             text_printf(xml, "    <%s valueReference=\"%zu\"/>\n", element, package->variable_count + i);
     }
 }
@@ -120,7 +100,7 @@ static void structure(const struct package *package, struct text *xml)
     for (size_t i = 0; i < count; i++)
         if (package_causality(package->model, &variables[i]) == fmi_output)
             unknown(package, "Output", i, xml);
-    extra_unknowns(package, extra_force, "Output", xml);
+    extra_unknowns(package, extra_column, "Output", xml);
     for (size_t i = 0; i < count; i++)
         if (package_integral(&variables[i], i) > 0 && package_has_states(package))
             unknown(package, "ContinuousStateDerivative", i, xml);
@@ -128,7 +108,7 @@ static void structure(const struct package *package, struct text *xml)
     for (size_t i = 0; i < count; i++)
         if (package_is_initial_unknown(package, i))
             text_printf(xml, "    <InitialUnknown valueReference=\"%zu\"/>\n", i);
-    extra_unknowns(package, extra_force, "InitialUnknown", xml);
+    extra_unknowns(package, extra_column, "InitialUnknown", xml);
     extra_unknowns(package, extra_rate, "InitialUnknown", xml);
     extra_unknowns(package, extra_indicator, "EventIndicator", xml);
     text_add(xml, "  </ModelStructure>\n");
@@ -137,12 +117,7 @@ static void structure(const struct package *package, struct text *xml)
 void package_describe(const struct package *package, struct text *xml)
 {
     begin(package, xml);
-    package_units(package, xml);
-    experiment(package, xml);
-    text_add(xml, "  <ModelVariables>\n");
-    for (size_t i = 0; i < package->variable_count; i++) variable_of(package, i, xml);
-    for (size_t i = 0; i < package->extras.count; i++) extra(package, i, xml);
-    text_add(xml, "  </ModelVariables>\n");
+    package_variables(package, variable_of, extra, xml);
     structure(package, xml);
     text_add(xml, "</fmiModelDescription>\n");
 }

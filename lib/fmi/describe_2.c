@@ -7,41 +7,17 @@
 
 static void begin(const struct package *package, struct text *xml)
 {
-    const char *title = fbd_model_title(package->model);
-    text_add(xml, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription fmiVersion=\"2.0\"");
-    xml_attribute(xml, "modelName", package->name);
-    xml_attribute(xml, "guid", package->token);
-    if (title[0]) xml_attribute(xml, "description", title);
-    xml_attribute(xml, "license", "GPL-3.0-or-later");
-    xml_attribute(xml, "generationTool", "fbd " FBD_VERSION);
-    xml_attribute(xml, "variableNamingConvention", "structured");
+    xml_head(package, "2.0", "guid", xml);
     if (package->extras.exchanges)
         text_printf(xml, " numberOfEventIndicators=\"%zu\"", package->extras.indicators);
     text_add(xml, ">\n");
-    if (package->extras.exchanges) {
-        text_add(xml, "  <ModelExchange");
-        xml_attribute(xml, "modelIdentifier", package->name);
-        text_add(xml, " canNotUseMemoryManagementFunctions=\"true\"/>\n");
-    }
-    text_add(xml, "  <CoSimulation");
-    xml_attribute(xml, "modelIdentifier", package->name);
-    text_add(xml, " canHandleVariableCommunicationStepSize=\"true\""
-                  " canNotUseMemoryManagementFunctions=\"true\" canGetAndSetFMUstate=\"true\""
-                  " canSerializeFMUstate=\"true\"");
-    if (package->has_derivatives) text_add(xml, " providesDirectionalDerivative=\"true\"");
-    text_add(xml, "/>\n");
-}
-
-static void experiment(const struct package *package, struct text *xml)
-{
-    text_add(xml, "  <LogCategories>\n"
-                  "    <Category name=\"logStatusError\" description=\"errors\"/>\n"
-                  "    <Category name=\"logStatusWarning\" description=\"warnings\"/>\n"
-                  "    <Category name=\"logEvents\" description=\"events of the motion\"/>\n"
-                  "  </LogCategories>\n  <DefaultExperiment startTime=\"0\"");
-    xml_number(xml, "stopTime", package->until);
-    xml_number(xml, "tolerance", package->tolerance);
-    text_add(xml, "/>\n");
+    if (package->extras.exchanges)
+        xml_interface(package, "ModelExchange", " canNotUseMemoryManagementFunctions=\"true\"", "", xml);
+    xml_interface(
+        package, "CoSimulation",
+        " canHandleVariableCommunicationStepSize=\"true\" canNotUseMemoryManagementFunctions=\"true\""
+        " canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\"",
+        package->has_derivatives ? " providesDirectionalDerivative=\"true\"" : "", xml);
 }
 
 static void causality(enum fmi_causality kind, struct text *xml)
@@ -115,12 +91,12 @@ static bool is_extra(const struct package *package, size_t index, enum extra_kin
 {
     const size_t count = package->variable_count;
     if (index < count || package->extras.list[index - count].kind != kind) return false;
-    return kind != extra_force || package->extras.list[index - count].output;
+    return kind != extra_column || package->extras.list[index - count].output;
 }
 
 static bool is_output(const struct package *package, size_t index)
 {
-    if (index >= package->variable_count) return is_extra(package, index, extra_force);
+    if (index >= package->variable_count) return is_extra(package, index, extra_column);
     return package_causality(package->model, &package->variables[index]) == fmi_output;
 }
 
@@ -133,7 +109,7 @@ static bool is_derivative(const struct package *package, size_t index)
 static bool is_initial(const struct package *package, size_t index)
 {
     if (index >= package->variable_count)
-        return is_extra(package, index, extra_force) || is_extra(package, index, extra_rate);
+        return is_extra(package, index, extra_column) || is_extra(package, index, extra_rate);
     return package_is_initial_unknown(package, index);
 }
 
@@ -166,12 +142,7 @@ static void structure(const struct package *package, struct text *xml)
 void package_describe_2(const struct package *package, struct text *xml)
 {
     begin(package, xml);
-    package_units(package, xml);
-    experiment(package, xml);
-    text_add(xml, "  <ModelVariables>\n");
-    for (size_t i = 0; i < package->variable_count; i++) variable_of(package, i, xml);
-    for (size_t i = 0; i < package->extras.count; i++) extra(package, i, xml);
-    text_add(xml, "  </ModelVariables>\n");
+    package_variables(package, variable_of, extra, xml);
     structure(package, xml);
     text_add(xml, "</fmiModelDescription>\n");
 }

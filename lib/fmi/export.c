@@ -61,6 +61,7 @@ static void put_settings(struct package *package, const fbd_options *run)
     if (run->step > 0) put_number(text, "step", run->step);
     text_printf(text, "method %s\n", run->method);
     if (run->no_structure) text_add(text, "structure no\n");
+    if (options->outputs) text_printf(text, "outputs %s\n", options->outputs);
     for (size_t i = 0; i < options->setting_count; i++) {
         const fbd_setting *setting = &options->settings[i];
         if (is_table(model, setting->name)) continue;
@@ -229,11 +230,48 @@ static bool list_variables(struct package *package, fbd_errors *errors)
     for (size_t i = 0; made && i < count; i++) package->variables[i] = fbd_model_variable(package->model, i);
     package->has_derivatives = made && package_has_derivatives(state);
     fbd_state_free(state);
-    made = made && extras_make(&package->extras, package->model);
     if (!made) diag_out_of_memory(errors);
     const char *outputs = package->options->outputs;
     if (outputs) package->has_derivatives = false; /* there are none of forces */
-    return made && extras_choose(&package->extras, outputs, errors);
+    return made && extras_make(&package->extras, package->model, outputs, errors);
+}
+
+static const char *name_of(struct package *package, size_t index)
+{
+    const size_t count = package->variable_count;
+    if (index >= count) return package->extras.list[index - count].name;
+    struct text name = {0};
+    package_variable_name(&package->variables[index], &name);
+    const char *copy = name.failed ? NULL : arena_text(&package->extras.arena, name.data, name.length);
+    text_free(&name);
+    return copy;
+}
+
+static int by_name(const void *a, const void *b)
+{
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+/* An importer finds variables by their names. */
+static bool names_differ(struct package *package, fbd_errors *errors)
+{
+    const size_t count = package->variable_count + package->extras.count;
+    const char **names = ARENA_ARRAY(&package->extras.arena, count + 1, const char *);
+    for (size_t i = 0; names && i < count; i++)
+        if (!(names[i] = name_of(package, i))) names = NULL;
+    if (!names) {
+        diag_out_of_memory(errors);
+        return false;
+    }
+    qsort(names, count, sizeof *names, by_name);
+    for (size_t i = 1; i < count; i++) {
+        if (strcmp(names[i - 1], names[i]) != 0) continue;
+        diag_add(errors, FBD_ERROR, "duplicate-name", (struct pos){0, 0},
+                 "call the parameter, the body or the force of this name otherwise",
+                 "two variables of the FMU would be called `%s`", names[i]);
+        return false;
+    }
+    return true;
 }
 
 static char *make(struct package *package, size_t *length, fbd_errors *errors)
@@ -249,7 +287,7 @@ static char *make(struct package *package, size_t *length, fbd_errors *errors)
     name_package(package);
     put_settings(package, &run);
     if (package->settings.failed) diag_out_of_memory(errors);
-    bool made = !package->settings.failed && list_variables(package, errors);
+    bool made = !package->settings.failed && list_variables(package, errors) && names_differ(package, errors);
     if (made) package_token(source, source_length, package->settings.data, package->token);
     char *bytes = made ? pack(package, length, errors) : NULL;
     free(package->variables);

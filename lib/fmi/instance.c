@@ -214,8 +214,10 @@ enum instance_status instance_get(struct instance *instance, const char *functio
     if (count > 0 && !update(instance, function)) return instance_error;
     for (size_t i = 0; i < count; i++) {
         const bool exchanged = instance->continuous && !plant_is_given(plant, references[i]);
-        values[i] = exchanged ? continuous_value(instance->continuous, references[i])
-                              : plant_get(plant, references[i]);
+        if (exchanged)
+            values[i] = continuous_value(instance->continuous, references[i]);
+        else if (!plant_get(plant, references[i], &values[i]))
+            return instance_fail(instance, function, plant->reason);
     }
     return instance_ok;
 }
@@ -234,6 +236,18 @@ static const char *why_not_set(const struct instance *instance, unsigned referen
     return isfinite(value) ? NULL : "the value is not finite";
 }
 
+/* Parameters belong to the start, which is made again; inputs do not. */
+static void set_one(struct instance *instance, unsigned reference, double value)
+{
+    const size_t parameter = fbd_model_variable(instance->plant->first, reference).index;
+    plant_set(instance->plant, parameter, value);
+    if (!instance->continuous) return;
+    if (instance->phase & (phase_instantiated | phase_initialization))
+        continuous_drop(instance->continuous);
+    else
+        continuous_set_input(instance->continuous, parameter, value);
+}
+
 enum instance_status instance_set(struct instance *instance, const char *function, const unsigned *references,
                                   size_t count, const double *values)
 {
@@ -243,13 +257,7 @@ enum instance_status instance_set(struct instance *instance, const char *functio
         const char *why = why_not_set(instance, references[i], values[i]);
         if (why) return instance_fail(instance, function, why);
     }
-    for (size_t i = 0; i < count; i++)
-        plant_set(instance->plant, fbd_model_variable(instance->plant->first, references[i]).index,
-                  values[i]);
-    /* Parameters belong to the start, which is made again; inputs do not. */
-    const bool starts = instance->phase & (phase_instantiated | phase_initialization);
-    if (instance->continuous && starts) continuous_drop(instance->continuous);
-    if (instance->continuous && !starts) continuous_touch(instance->continuous);
+    for (size_t i = 0; i < count; i++) set_one(instance, references[i], values[i]);
     return instance_ok;
 }
 

@@ -115,12 +115,58 @@ static bool is_first(const struct package *package, size_t index)
     return true;
 }
 
-void package_units(const struct package *package, struct text *xml)
+static void write_units(const struct package *package, struct text *xml)
 {
     text_add(xml, "  <UnitDefinitions>\n");
     for (size_t i = 0; i < package->variable_count + package->extras.count; i++)
         if (unit_of(package, i)[0] && is_first(package, i)) write_unit(xml, unit_of(package, i));
     text_add(xml, "  </UnitDefinitions>\n");
+}
+
+/* ---- the description */
+
+void xml_head(const struct package *package, const char *version, const char *token, struct text *xml)
+{
+    const char *title = fbd_model_title(package->model);
+    text_add(xml, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription");
+    xml_attribute(xml, "fmiVersion", version);
+    xml_attribute(xml, "modelName", package->name);
+    xml_attribute(xml, token, package->token);
+    if (title[0]) xml_attribute(xml, "description", title);
+    xml_attribute(xml, "license", "GPL-3.0-or-later");
+    xml_attribute(xml, "generationTool", "fbd " FBD_VERSION);
+    xml_attribute(xml, "variableNamingConvention", "structured");
+}
+
+void xml_interface(const struct package *package, const char *name, const char *capabilities,
+                   const char *others, struct text *xml)
+{
+    text_printf(xml, "  <%s", name);
+    xml_attribute(xml, "modelIdentifier", package->name);
+    text_printf(xml, "%s%s/>\n", capabilities, others);
+}
+
+static void experiment(const struct package *package, struct text *xml)
+{
+    text_add(xml, "  <LogCategories>\n"
+                  "    <Category name=\"logStatusError\" description=\"errors\"/>\n"
+                  "    <Category name=\"logStatusWarning\" description=\"warnings\"/>\n"
+                  "    <Category name=\"logEvents\" description=\"events of the motion\"/>\n"
+                  "  </LogCategories>\n  <DefaultExperiment startTime=\"0\"");
+    xml_number(xml, "stopTime", package->until);
+    xml_number(xml, "tolerance", package->tolerance);
+    text_add(xml, "/>\n");
+}
+
+void package_variables(const struct package *package, xml_variable *variable, xml_variable *extra,
+                       struct text *xml)
+{
+    write_units(package, xml);
+    experiment(package, xml);
+    text_add(xml, "  <ModelVariables>\n");
+    for (size_t i = 0; i < package->variable_count; i++) variable(package, i, xml);
+    for (size_t i = 0; i < package->extras.count; i++) extra(package, i, xml);
+    text_add(xml, "  </ModelVariables>\n");
 }
 
 /* ---- variables */
@@ -167,7 +213,7 @@ size_t package_integral(const fbd_variable *variable, size_t index)
     return derivative ? index - 1 : 0;
 }
 
-static void add_name(struct text *text, const fbd_variable *variable)
+void package_variable_name(const fbd_variable *variable, struct text *text)
 {
     if (variable->kind == FBD_VARIABLE_TIME)
         text_add(text, "time");
@@ -186,7 +232,7 @@ static void take_attribute(struct text *xml, const char *name, struct text *text
 void xml_variable_name(struct text *xml, const fbd_variable *variable)
 {
     struct text name = {0};
-    add_name(&name, variable);
+    package_variable_name(variable, &name);
     take_attribute(xml, "name", &name);
 }
 
@@ -210,7 +256,7 @@ void xml_description(struct text *xml, const struct package *package, size_t ind
     case FBD_VARIABLE_RATE:
     case FBD_VARIABLE_ACCELERATION:
         text_add(&text, "rate of change of ");
-        add_name(&text, variable - 1);
+        package_variable_name(variable - 1, &text);
         break;
     case FBD_VARIABLE_STATE: text_add(&text, "state of the model file"); break;
     case FBD_VARIABLE_POINT: text_add(&text, "of a point"); break;
@@ -220,10 +266,13 @@ void xml_description(struct text *xml, const struct package *package, size_t ind
 
 void xml_extra_description(struct text *xml, const struct extra *extra)
 {
-    static const char *const words[] = {[extra_force] = "force, moment or reaction",
-                                        [extra_rate] = "rate of change of a state of the model file",
-                                        [extra_indicator] = "event indicator: negative past an event"};
-    xml_attribute(xml, "description", words[extra->kind]);
+    static const char *const of_columns[] = {[FBD_COLUMN_FORCE] = "force, moment or reaction",
+                                             [FBD_COLUMN_ENERGY] = "energy",
+                                             [FBD_COLUMN_WORK] = "work since the start"};
+    static const char *const others[] = {[extra_rate] = "rate of change of a state of the model file",
+                                         [extra_indicator] = "event indicator: negative past an event"};
+    xml_attribute(xml, "description",
+                  extra->kind == extra_column ? of_columns[extra->column] : others[extra->kind]);
 }
 
 /* ---- the token */
@@ -282,8 +331,9 @@ static bool take_line(struct package_settings *settings, char *line, const char 
     if (strcmp(line, "tolerance") == 0) return take_number(value, &settings->run.tolerance);
     if (strcmp(line, "step") == 0) return take_number(value, &settings->run.step);
     if (strcmp(line, "method") == 0) settings->run.method = value;
+    if (strcmp(line, "outputs") == 0) settings->outputs = value;
     if (strcmp(line, "structure") == 0) settings->run.no_structure = true;
-    return strcmp(line, "method") == 0 || strcmp(line, "structure") == 0;
+    return strcmp(line, "method") == 0 || strcmp(line, "outputs") == 0 || strcmp(line, "structure") == 0;
 }
 
 bool package_settings_read(struct package_settings *settings, char *text, const char *resources)

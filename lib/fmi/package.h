@@ -49,6 +49,7 @@ struct package_settings {
     fbd_options run;
     fbd_setting *list; /* of parameters and tables */
     size_t count;
+    const char *outputs; /* columns that are outputs, separated by commas; or NULL */
 };
 
 /* Read them from `text`, which is cut into pieces; tables are in the folder `resources`. Returns false when
@@ -89,7 +90,8 @@ bool package_is_initial_unknown(const struct package *package, size_t index);
 /* The variable whose derivative by time is variable `index`, or 0. */
 size_t package_integral(const fbd_variable *variable, size_t index);
 
-/* Append the name of a variable, escaped, as an attribute. */
+/* Append the name of a variable: as it is, and escaped, as an attribute. */
+void package_variable_name(const fbd_variable *variable, struct text *text);
 void xml_variable_name(struct text *xml, const fbd_variable *variable);
 
 /* Are states and their derivatives declared: for directional derivatives, or for model exchange? Is the variable such a
@@ -104,8 +106,18 @@ const char *package_display_unit(const char *unit);
 void xml_units(struct text *xml, const char *unit);
 void xml_extra_description(struct text *xml, const struct extra *extra);
 
-/* Append the units of all variables, each once. */
-void package_units(const struct package *package, struct text *xml);
+/* Append the beginning of the first element, up to the attributes of one version; `token` is the name of the token's
+ * attribute. */
+void xml_head(const struct package *package, const char *version, const char *token, struct text *xml);
+
+/* Append an interface, ModelExchange or CoSimulation, with its capabilities as attributes. */
+void xml_interface(const struct package *package, const char *name, const char *capabilities,
+                   const char *others, struct text *xml);
+
+/* Append units, log categories, default experiment and all variables: `variable` and `extra` append one. */
+typedef void xml_variable(const struct package *package, size_t index, struct text *xml);
+void package_variables(const struct package *package, xml_variable *variable, xml_variable *extra,
+                       struct text *xml);
 
 /* Append a short description of variable `index`: "rate of change of block.x", as an attribute. */
 void xml_description(struct text *xml, const struct package *package, size_t index);

@@ -23,8 +23,7 @@ static bool no_memory(struct plant *plant)
 /* Set the reason to the first error. */
 static bool fail_by(struct plant *plant, fbd_errors *errors)
 {
-    const fbd_error *first = diag_get(errors, 0);
-    for (size_t i = 0; first && first->severity == FBD_WARNING; i++) first = diag_get(errors, i);
+    const fbd_error *first = diag_first_error(errors);
     if (!first) return no_memory(plant);
     if (first->line > 0)
         format_into(plant->own_reason, sizeof plant->own_reason, "model.yaml:%d:%d: %s", first->line,
@@ -81,10 +80,8 @@ static bool make_model(struct plant *plant)
     if (!errors) return no_memory(plant);
     plant->model = plant_model(plant, errors);
     if (!plant->model) fail_by(plant, errors);
-    plant->forces = plant->model ? fbd_force_columns_new(plant->model) : NULL;
-    if (plant->model && !plant->forces) no_memory(plant);
     fbd_errors_free(errors);
-    return plant->forces != NULL;
+    return plant->model != NULL;
 }
 
 /* ---- opening */
@@ -96,17 +93,17 @@ static bool open_model(struct plant *plant, fbd_errors *errors)
     if (!plant->first) return false;
     size_t count = plant->parameter_count = fbd_model_parameter_count(plant->first);
     plant->variable_count = fbd_model_variable_count(plant->first);
-    if (!extras_make(&plant->extras, plant->first)) {
-        diag_out_of_memory(errors);
-        return false;
-    }
-    plant->values = calloc(2 * count + plant_variable_count(plant), sizeof *plant->values);
+    if (!extras_make(&plant->extras, plant->first, plant->settings.outputs, errors)) return false;
+    size_t columns = plant->column_count = fbd_force_columns_count(plant->extras.columns);
+    plant->values = calloc(2 * (count + columns) + plant->variable_count, sizeof *plant->values);
     if (!plant->values) {
         diag_out_of_memory(errors);
         return false;
     }
     plant->base.values = plant->values + count;
-    plant->shown = plant->base.values + count;
+    plant->base.works = plant->base.values + count;
+    plant->pulls = plant->base.works + columns;
+    plant->shown = plant->pulls + columns;
     plant_reset(plant);
     return true;
 }
@@ -124,12 +121,12 @@ struct plant *plant_open(const char *resources, fbd_errors *errors)
 static void drop_run(struct plant *plant)
 {
     fbd_state_free(plant->state);
+    fbd_force_columns_free(plant->columns);
     fbd_simulation_free(plant->simulation);
-    fbd_force_columns_free(plant->forces);
     fbd_model_free(plant->model);
     plant->state = NULL;
-    plant->forces = NULL;
-    plant->is_shown = false;
+    plant->columns = NULL;
+    plant->is_shown = plant->is_pulled = false;
     plant->simulation = NULL;
     plant->model = NULL;
 }
@@ -155,14 +152,21 @@ static void take_values(struct plant *plant)
         memcpy(plant->base.values, plant->values, plant->parameter_count * sizeof *plant->values);
 }
 
+/* The next simulation begins at the start of the file. */
+static void begin_file(struct plant *plant, double until)
+{
+    plant->base.of_file = true;
+    plant->base.until = until;
+    for (size_t i = 0; i < plant->column_count; i++) plant->base.works[i] = 0;
+}
+
 void plant_reset(struct plant *plant)
 {
     drop_run(plant);
     for (size_t i = 0; i < plant->parameter_count; i++)
         plant->values[i] = fbd_model_parameter(plant->first, i).value;
     take_values(plant);
-    plant->base.of_file = true;
-    plant->base.until = plant->settings.run.until;
+    begin_file(plant, plant->settings.run.until);
     plant->base.number_count = 0;
     plant->running = false;
     plant->start = plant->t = 0;
@@ -195,10 +199,9 @@ void plant_begin(struct plant *plant, double start, double stop, double toleranc
     plant->stop = stop;
     plant->tolerance = tolerance > 0 ? fmax(tolerance, least) : 0;
     double length = plant->settings.run.until > 0 ? plant->settings.run.until : 1;
-    plant->base.until = !isnan(stop)                        ? stop
-                        : start < plant->settings.run.until ? plant->settings.run.until
-                                                            : start + length;
-    plant->base.of_file = true;
+    begin_file(plant, !isnan(stop)                        ? stop
+                      : start < plant->settings.run.until ? plant->settings.run.until
+                                                          : start + length);
 }
 
 /* A state of the model with the numbers of the base. */
@@ -231,7 +234,7 @@ static bool start_simulation(struct plant *plant)
                                   : fbd_simulation_from(plant->state, &options, errors);
     if (plant->state && !plant->simulation) fail_by(plant, errors);
     fbd_errors_free(errors);
-    return plant->simulation != NULL;
+    return plant->simulation && (!plant->extras.works || plant_follow(plant));
 }
 
 /* ---- states and steps */
@@ -257,7 +260,7 @@ static double reached(const struct plant *plant)
 
 static bool look(struct plant *plant, double t)
 {
-    plant->is_shown = false;
+    plant->is_shown = plant->is_pulled = false;
     if (!fbd_simulation_state(plant->simulation, t, plant->state))
         return fail(plant, "the state cannot be had: memory is out, or a force is not finite");
     plant->t = t;
@@ -286,6 +289,8 @@ static bool values_differ(const struct plant *plant)
 /* Make the present state the base. */
 static bool take_state(struct plant *plant, double until)
 {
+    if (plant->extras.works && !plant_pull(plant)) return false;
+    for (size_t i = 0; i < plant_work_count(plant); i++) plant->base.works[i] = plant->pulls[i];
     size_t count = fbd_state_pack(plant->state, NULL, 0);
     double *numbers = realloc(plant->base.numbers, (count + 1) * sizeof *numbers);
     if (!numbers) return no_memory(plant);
@@ -363,29 +368,6 @@ enum plant_step plant_step(struct plant *plant, double target, bool pause)
     }
 }
 
-bool plant_is_given(const struct plant *plant, size_t index)
-{
-    const fbd_variable variable = fbd_model_variable(plant->first, index);
-    if (!variable.name) return false;
-    enum fmi_causality kind = package_causality(plant->first, &variable);
-    return kind == fmi_parameter || kind == fmi_input;
-}
-
-/* A parameter or input has the value that was set; one defined by others has that of the model. */
-double plant_get(struct plant *plant, size_t index)
-{
-    const fbd_variable variable = fbd_model_variable(plant->first, index);
-    const size_t known = plant->variable_count + fbd_force_columns_count(plant->forces);
-    if (index >= known) return NAN;
-    if (plant_is_given(plant, index)) return plant->values[variable.index];
-    if (!plant->is_shown) {
-        fbd_state_variables(plant->state, plant->shown, plant->variable_count);
-        fbd_force_columns_values(plant->forces, plant->state, plant->shown + plant->variable_count);
-    }
-    plant->is_shown = true;
-    return plant->shown[index];
-}
-
 /* ---- saving */
 
 /* Indices of the numbers saved before the state. */
@@ -401,11 +383,17 @@ enum {
     save_values
 };
 
+static size_t saved_before_states(const struct plant *plant)
+{
+    return save_values + 2 * plant->parameter_count + plant_work_count(plant);
+}
+
 size_t plant_save(const struct plant *plant, double *numbers)
 {
     const struct plant_base *base = &plant->base;
-    size_t parameters = plant->parameter_count, states = base->of_file ? 0 : base->number_count;
-    size_t count = save_values + 2 * parameters + states;
+    const size_t parameters = plant->parameter_count, works = plant_work_count(plant);
+    const size_t states = base->of_file ? 0 : base->number_count, before = saved_before_states(plant);
+    const size_t count = before + states;
     if (!numbers) return count;
     numbers[save_running] = plant->running;
     numbers[save_start] = plant->start;
@@ -419,7 +407,8 @@ size_t plant_save(const struct plant *plant, double *numbers)
         numbers[save_values + i] = plant->values[i];
         numbers[save_values + parameters + i] = base->values[i];
     }
-    for (size_t i = 0; i < states; i++) numbers[save_values + 2 * parameters + i] = base->numbers[i];
+    for (size_t i = 0; i < works; i++) numbers[save_values + 2 * parameters + i] = base->works[i];
+    for (size_t i = 0; i < states; i++) numbers[before + i] = base->numbers[i];
     return count;
 }
 
@@ -433,28 +422,41 @@ static bool are_finite(const double *numbers, size_t count)
 /* True if the existing simulation is that of these numbers, and its last step contains their time. */
 static bool is_there(const struct plant *plant, const double *numbers, size_t count)
 {
-    size_t parameters = plant->parameter_count;
+    const size_t parameters = plant->parameter_count, works = plant_work_count(plant);
+    const size_t before = saved_before_states(plant), one = sizeof *numbers;
     double from;
     if (!plant->simulation || plant->state == NULL) return false;
     const struct plant_base *base = &plant->base;
-    size_t states = base->of_file ? 0 : base->number_count;
-    bool same = count == save_values + 2 * parameters + states &&
-                plant->running == (numbers[save_running] != 0) && plant->start == numbers[save_start] &&
-                plant->tolerance == numbers[save_tolerance] &&
+    const size_t states = base->of_file ? 0 : base->number_count;
+    const double *values = numbers + save_values + parameters;
+    bool same = count == before + states && plant->running == (numbers[save_running] != 0) &&
+                plant->start == numbers[save_start] && plant->tolerance == numbers[save_tolerance] &&
                 base->of_file == (numbers[save_of_file] != 0) && base->until == numbers[save_until] &&
-                memcmp(base->values, numbers + save_values + parameters, parameters * sizeof *numbers) == 0;
-    if (!same || memcmp(base->numbers ? base->numbers : numbers, numbers + save_values + 2 * parameters,
-                        states * sizeof *numbers) != 0)
+                memcmp(base->values, values, parameters * one) == 0 &&
+                memcmp(base->works, values + parameters, works * one) == 0;
+    if (!same || memcmp(base->numbers ? base->numbers : numbers, numbers + before, states * one) != 0)
         return false;
     fbd_simulation_interval(plant->simulation, &from, NULL);
     return from <= numbers[save_t] && numbers[save_t] <= reached(plant);
 }
 
+static void take_saved_values(struct plant *plant, const double *values)
+{
+    const size_t parameters = plant->parameter_count;
+    for (size_t i = 0; i < parameters; i++) {
+        plant->values[i] = values[i];
+        plant->base.values[i] = values[parameters + i];
+    }
+    for (size_t i = 0; i < plant_work_count(plant); i++) plant->base.works[i] = values[2 * parameters + i];
+}
+
 bool plant_restore(struct plant *plant, const double *numbers, size_t count)
 {
-    size_t parameters = plant->parameter_count, before = save_values + 2 * parameters;
+    const size_t before = saved_before_states(plant), works = plant_work_count(plant);
     struct plant_base *base = &plant->base;
-    if (count < before || !are_finite(numbers, count)) return false;
+    if (count < before || !are_finite(numbers, before - works) ||
+        !are_finite(numbers + before, count - before))
+        return false;
     bool there = is_there(plant, numbers, count), of_file = numbers[save_of_file] != 0;
     double *states = of_file ? NULL : malloc((count - before + 1) * sizeof *states);
     if (!of_file && !states) return false;
@@ -464,10 +466,7 @@ bool plant_restore(struct plant *plant, const double *numbers, size_t count)
     plant->tolerance = numbers[save_tolerance];
     base->of_file = of_file;
     base->until = numbers[save_until];
-    for (size_t i = 0; i < parameters; i++) {
-        plant->values[i] = numbers[save_values + i];
-        base->values[i] = numbers[save_values + parameters + i];
-    }
+    take_saved_values(plant, numbers + save_values);
     if (!of_file) {
         memcpy(states, numbers + before, (count - before) * sizeof *states);
         free(base->numbers);

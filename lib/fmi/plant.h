@@ -28,6 +28,7 @@ struct plant_base {
     bool of_file;    /* at the start of the file, at t = 0 */
     double until;    /* end time of the simulation */
     double *values;  /* parameter_count */
+    double *works;   /* plant_work_count: up to there */
     double *numbers; /* number_count: the state (fbd_state_pack), unless of_file */
     size_t number_count;
 };
@@ -50,11 +51,12 @@ struct plant {
     struct plant_base base;
     fbd_model *model; /* with the values of the base; NULL if not compiled yet */
     fbd_simulation *simulation;
-    fbd_state *state;          /* at t */
-    fbd_force_columns *forces; /* of the model */
-    double *shown;             /* variable_count, then the forces: values of all variables in the state ... */
-    bool is_shown;             /* ... if they have been computed */
-    const char *reason;        /* reason of a failure */
+    fbd_state *state;           /* at t */
+    fbd_force_columns *columns; /* of the model; NULL: not needed yet */
+    size_t column_count;
+    double *shown, *pulls;    /* values in the state: variable_count; column_count ... */
+    bool is_shown, is_pulled; /* ... if they have been computed */
+    const char *reason;       /* reason of a failure */
     char own_reason[400];
 };
 
@@ -64,6 +66,11 @@ void plant_close(struct plant *plant);
 
 /* A part of plant_open: text and settings (plant_files.c). */
 bool plant_read_files(struct plant *plant, const char *resources, fbd_errors *errors);
+
+/* Integrate works along the simulation; and the values of all columns at the present state, with the works since the
+ * start of the motion (plant_values.c). Return false with a reason. */
+bool plant_follow(struct plant *plant);
+bool plant_pull(struct plant *plant);
 
 /* Return to the state after plant_open. */
 void plant_reset(struct plant *plant);
@@ -84,14 +91,20 @@ fbd_model *plant_model(const struct plant *plant, fbd_errors *errors);
 /* Is the variable a parameter or an input, whose value is set? */
 bool plant_is_given(const struct plant *plant, size_t index);
 
+/* The number of works that belong to a base: those of all columns, or none where none is an output. */
+static inline size_t plant_work_count(const struct plant *plant)
+{
+    return plant->extras.works ? plant->column_count : 0;
+}
+
 /* The number of all variables. */
 static inline size_t plant_variable_count(const struct plant *plant)
 {
     return plant->variable_count + plant->extras.count;
 }
 
-/* The value of variable `index` after plant_update; NAN past the last one, and of one for model exchange only. */
-double plant_get(struct plant *plant, size_t index);
+/* The value of variable `index` after plant_update; NAN of one for model exchange only. Returns false with a reason. */
+bool plant_get(struct plant *plant, size_t index, double *value);
 
 /* Advance to `target`; with `pause` at most to the first event after t. */
 enum plant_step plant_step(struct plant *plant, double target, bool pause);

@@ -118,6 +118,14 @@ void exchange_put(struct exchange *exchange, double t, const double *y)
     exchange->moved = true;
 }
 
+void exchange_set_input(struct exchange *exchange, size_t input, double value)
+{
+    struct run *run = exchange->run;
+    run->state->held[input] = run->during->held[input] = value;
+    run->stale = true;
+    exchange->moved = true;
+}
+
 void exchange_slopes(struct exchange *exchange, double *dy)
 {
     run_evaluate(exchange->run);
@@ -154,9 +162,11 @@ void exchange_functions(struct exchange *exchange, double *values)
 /* ---- the end of a step */
 
 /* Close the couplings, from wherever the steps of another method have led. Returns whether they were off by more than the
- * tolerance. */
-static bool project(struct run *run)
+ * tolerance, relative to the size of the mechanism and to its speed; at rest, to a speed that would move it by its size
+ * within the run. */
+static bool project(const struct exchange *exchange)
 {
+    struct run *run = exchange->run;
     const double least = negligible_sum; /* rounding in a mechanism of many rows, relative to its size */
     const double tolerance = fmax(run->options.tolerance, least);
     const struct tree *tree = run->model->tree;
@@ -172,8 +182,8 @@ static bool project(struct run *run)
             "of its reach, or the steps of the importer are too long",
             run_time(run), coupling_row_name(tree, closing.left.row >= 0 ? closing.left.row : 0),
             closing.left.position);
-    return closing.off.position > tolerance * run->drift.reach ||
-           closing.off.velocity > tolerance * run->drift.speed;
+    const double speed = fmax(run->drift.speed, run->drift.reach / exchange->length);
+    return closing.off.position > tolerance * run->drift.reach || closing.off.velocity > tolerance * speed;
 }
 
 bool exchange_complete(struct exchange *exchange)
@@ -192,7 +202,7 @@ bool exchange_complete(struct exchange *exchange)
         run_fail(run, FBD_FAILED, "by t = %.9g a step has passed a division by zero", run_time(run));
     for (size_t i = 0; i < size; i++) most[i] = fmax(most[i], fabs(run->state->y[i]));
     memcpy(exchange->kept, run->state->y, size * sizeof *exchange->kept);
-    const bool drifts = project(run);
+    const bool drifts = project(exchange);
     memcpy(run->state->y, exchange->kept, size * sizeof *exchange->kept);
     run->stale = true;
     if (run->end.outcome != FBD_GOING) return false;
@@ -321,7 +331,7 @@ static void apply_all(struct exchange *exchange)
     struct run *run = exchange->run;
     exchange->moved = false;
     impose(run);
-    project(run);
+    project(exchange);
     if (run->end.outcome != FBD_GOING) return;
     apply_timed(exchange);
     apply_moving(exchange); /* unless the run has ended */

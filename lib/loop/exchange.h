@@ -39,6 +39,9 @@ void exchange_free(struct exchange *exchange);
 /* Set time and coordinates, rates and user states within a step, in the present modes. */
 void exchange_put(struct exchange *exchange, double t, const double *y);
 
+/* Set an input that states have a value of (input_call.held), by its index among the parameters. */
+void exchange_set_input(struct exchange *exchange, size_t input, double value);
+
 /* Their derivatives, plan_size. */
 void exchange_slopes(struct exchange *exchange, double *dy);
 

@@ -369,8 +369,8 @@ class Model:
     def fmu(self, path: Union[str, "os.PathLike[str]"], *, version: int = 3, until: Time = None,
             tolerance: Optional[float] = None, step: Time = None, method: Optional[str] = None, structure: bool = True,
             outputs: Sequence[str] = ()) -> None:
-        """Write the model as a Functional Mock-up Unit (docs/fmi.md), of FMI 3.0 or 2.0. `outputs` are the forces, moments
-        and reactions that are outputs of it, by their names in the CSV with ledger. :class:`fbd.Error` with the id `no-fmu` where the module was built without the binary for it."""
+        """Write the model as a Functional Mock-up Unit (docs/fmi.md), of FMI 3.0 or 2.0. `outputs` are the forces,
+        reactions, energies and works that are outputs of it, by their names in the CSV with ledger. :class:`fbd.Error` with the id `no-fmu` where the module was built without the binary for it."""
         self._read_again()
         library = fmu_library()
         settings, count, kept = settings_of(self._parameters)

@@ -19,6 +19,8 @@ from ._json_rpc import INVALID_PARAMS, Json, RpcError, Server, read_framed, writ
 from ._model import check
 from ._notes import Note
 
+# A file in YAML that is meant as a model.
+MODEL = re.compile(r"""(?:^|[{,])\s*["']?(?:fbd|bodies)["']?\s*:""", re.MULTILINE)
 UNITS = ("m", "cm", "mm", "km", "ft", "in", "kg", "g", "t", "lbm", "slug", "s", "ms", "min", "h", "N", "kN", "lbf", "kip", "J", "kJ", "W",
          "kW", "hp", "Pa", "kPa", "MPa", "psi", "rad", "deg", "rev", "rpm", "Hz", "m/s", "m/s^2", "rad/s", "N/m", "N*m", "N*s/m", "kg*m^2")
 KEYWORD, VALUE, BODY, PARAMETER, UNIT = 10, 12, 7, 6, 11  # kinds of completion items of the protocol
@@ -385,7 +387,7 @@ class Lsp(Server):
         document = params.get("textDocument")
         uri = document.get("uri") if isinstance(document, dict) else None
         if not isinstance(uri, str) or uri not in self.texts:
-            raise RpcError(INVALID_PARAMS, f"the document {uri} is not open")
+            raise RpcError(INVALID_PARAMS, f"the document {uri} is not open" if isinstance(uri, str) else "there is no `textDocument` with a `uri`")
         return uri, self.texts[uri]
 
     def position(self, params: Json) -> Tuple[str, int, int]:
@@ -413,7 +415,8 @@ class Lsp(Server):
     def take(self, uri: str, text: str) -> None:
         self.texts[uri] = text
         path = path_of(uri)
-        self.notes[uri] = tuple(note for note in check(text.replace("\0", "\ufffd"), path) if note.file in (path, None))
+        notes = check(text.replace("\0", "\ufffd"), path) if MODEL.search(text) else ()
+        self.notes[uri] = tuple(note for note in notes if note.file in (path, None))
         self.notify("textDocument/publishDiagnostics", {"uri": uri, "diagnostics": [self.diagnostic(uri, note) for note in self.notes[uri]]})
 
     def diagnostic(self, uri: str, note: Note) -> Json:

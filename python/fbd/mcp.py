@@ -86,9 +86,6 @@ def kinds_of(value: Any) -> List[str]:
 
 def _validate_members(value: Json, rule: Json, what: str) -> None:
     known, others = rule.get("properties", {}), rule.get("additionalProperties", True)
-    for name in rule.get("required", []):
-        if name not in value:
-            raise RpcError(INVALID_PARAMS, f"{what} lacks `{name}`")
     for name, each in value.items():
         if name in known:
             validate(each, known[name], f"`{name}`")
@@ -96,6 +93,9 @@ def _validate_members(value: Json, rule: Json, what: str) -> None:
             raise RpcError(INVALID_PARAMS, f"{what} has no argument `{name}`; it has {', '.join(known)}")
         elif isinstance(others, dict):
             validate(each, others, f"`{name}`")
+    for name in rule.get("required", []):
+        if name not in value:
+            raise RpcError(INVALID_PARAMS, f"{what} lacks `{name}`")
 
 
 # ---- tools: each returns a text and an object

@@ -35,6 +35,10 @@ bash_completes_names() {
         offers block "$model" --body b
         offers block.friction "$model" --without block.f
         offers "rk8pd" --method rk8
+        offers "2 3" --fmu-version ""
+        offers "block.friction block.friction.work" "$model" --fmu-outputs block.f
+        offers "$model" --fmu "${model%ml}"
+        offers "$model" --grade "${model%ml}"
         offers "" nothing.yaml --set m
         offers "" --body b' - "$FBD_RUN" "$FBD_SOURCE_ROOT/models/kinetics/incline.yaml"
 }

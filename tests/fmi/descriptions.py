@@ -7,10 +7,11 @@ import re
 import shutil
 import subprocess
 import sys
+import xml.etree.ElementTree as ElementTree
 import zipfile
 from pathlib import Path
 
-from fmu import OK, RUN, Fmu
+from fmu import OK, RUN, Fmu, make_fmu
 from claims_of_fmus import FOLDER, MODELS, STICKS, check_close, close, fmu_of, place, run_claims, run_csv
 
 NAMED = """fbd: 1
@@ -106,7 +107,8 @@ def variables_are_those_of_the_model():
             "sled.x": ("output", "ft"), "sled.v": ("output", "ft/s"), "sled.v_dot": ("output", "ft/s^2"),
             "wheel.theta": ("output", "rad"), "wheel.omega": ("output", "rad/s"), "wheel.omega_dot": ("output", "rad/s^2"),
             "sled.gravity": ("local", "lbf"), "sled.applied": ("local", "lbf"), "wheel.applied": ("local", "lbf*ft"),
-            "wheel.pin.x": ("local", "lbf"), "wheel.pin.y": ("local", "lbf")}
+            "wheel.pin.x": ("local", "lbf"), "wheel.pin.y": ("local", "lbf"),
+            "energy.kinetic": ("local", "ft*lbf"), "energy.potential": ("local", "ft*lbf")}
         assert found == want, found
         assert fmu.variables["push"].description == '<to> the "right" & back'
         assert fmu.xml.get("description") == 'Names & <signs> that "XML" minds: größer'
@@ -118,7 +120,7 @@ def variables_are_those_of_the_model():
 
 
 BASES = {"kg", "m", "s", "rad"}
-FACTORS = {"lbf": 4.4482216152605, "slug": 14.593902937206364, "ft": 0.3048, "ft/s": 0.3048, "ft/s^2": 0.3048, "lbf*ft": 1.3558179483314003}
+FACTORS = {"lbf": 4.4482216152605, "slug": 14.593902937206364, "ft": 0.3048, "ft/s": 0.3048, "ft/s^2": 0.3048, "lbf*ft": 1.3558179483314003, "ft*lbf": 1.3558179483314003}
 
 
 def units_have_their_dimension_and_size():
@@ -137,6 +139,13 @@ def units_have_their_dimension_and_size():
         for name, base in units.items():
             want = FACTORS.get(name, 1)
             assert close(float(base.get("factor", 1)), want, want, 1e-12), (name, base)
+
+
+TWICE = """fbd: 1
+parameters: {{{0}: 2 N}}
+bodies: {{energy: {{mass: 1 kg, motion: slide, forces: [applied: {{name: {1}, value: {0}}}]}}}}
+simulate: {{until: 1 s}}
+"""
 
 
 def the_structure_lists_what_the_standard_asks_for():
@@ -189,6 +198,8 @@ def forces_are_variables_and_outputs_where_they_are_chosen():
         check_close(instance.get(names), {name: rows[-1][name] for name in names}, 1e-7)
         instance.free()
     fails(2, "--fmu", Path(FOLDER.name) / "wrong.fmu", "--fmu-outputs", "block.fiction", place(STICKS), words="block.friction")
+    for scene, name in ((TWICE.format("time", "push"), "time"), (TWICE.format("F", "kinetic"), "energy.kinetic")):
+        fails(1, "--fmu", Path(FOLDER.name) / "twice.fmu", place(scene), words=f"`{name}`")
     fails(2, "--fmu-outputs", "block.friction", place(STICKS), words="--fmu")
 
 
@@ -249,9 +260,31 @@ def what_makes_no_sense_is_refused():
     assert not target.exists()
 
 
+def sources_on_request_are_whole():
+    """Each header that one includes is there, each file that the description lists, and only once."""
+    tool = Path(os.environ["FBD_SOURCE_ROOT"]) / "packaging/fmu-sources"
+    for version in (2, 3):
+        path = make_fmu(place(NAMED), f"{FOLDER.name}/sources{version}.fmu", "--fmu-version", version)
+        subprocess.run([tool, path], check=True)
+        with zipfile.ZipFile(path) as archive:
+            names = set(archive.namelist())
+            root = ElementTree.fromstring(archive.read("sources/buildDescription.xml" if version == 3 else "modelDescription.xml"))
+            texts = {name: archive.read(name).decode() for name in names if name.endswith((".c", ".h"))}
+        listed = [element.get("name") for element in root.iter("SourceFile" if version == 3 else "File")]
+        interfaces = 2 if version == 2 else 1
+        assert sorted(listed) == sorted(interfaces * [name.removeprefix("sources/") for name in names if name.endswith(".c")])
+        for name, text in texts.items():
+            for header in re.findall(r'^#include "([^"]+)"', text, re.MULTILINE):
+                assert "sources/" + header in names, (name, header)
+        assert Fmu(path, f"{FOLDER.name}/with{version}").open().go_to(0.1)[0] == OK
+        done = subprocess.run([tool, path], stderr=subprocess.PIPE, check=False, text=True)
+        assert done.returncode == 1 and "already" in done.stderr
+
+
 CLAIMS = [an_archive_has_its_files, the_binary_shows_the_functions_of_the_standard_and_needs_the_C_library,
           variables_are_those_of_the_model, units_have_their_dimension_and_size,
           the_structure_lists_what_the_standard_asks_for, forces_are_variables_and_outputs_where_they_are_chosen, tokens_tell_models_apart, settings_go_along,
-          an_FMU_is_moved_and_its_table_goes_along, what_makes_no_sense_is_refused]
+          an_FMU_is_moved_and_its_table_goes_along, sources_on_request_are_whole,
+          what_makes_no_sense_is_refused]
 
 sys.exit(run_claims(CLAIMS))

@@ -168,6 +168,12 @@ def ropes_bodies_that_strike_and_switches_in_time():
     compare("data/measured_push.yaml", 0.001, 1e-12, 0.2)
 
 
+def a_mechanism_at_rest_asks_for_no_events():
+    importer = Importer("statics/truss.yaml", 3)
+    importer.go_to(0.1, 1e-3)
+    assert importer.events == 0, importer.events
+
+
 # ---- inputs
 
 DRIVEN = """fbd: 1
@@ -209,6 +215,18 @@ def an_input_jumps_in_event_mode():
     check_close(importer.values(["block.x", "block.v"]), {n: want[n] for n in ("block.x", "block.v")}, 1e-8)
 
 
+def a_scene_of_more_than_500_numbers_has_inputs():
+    bodies = "".join(f"  b{k}: {{mass: 1 kg, motion: slide, initial: {{x: {k} m}}, "
+                     f"forces: [spring: {{stiffness: {1 + k % 7} N/m}}, applied: {{value: push}}]}}\n" for k in range(1, 261))
+    text = f"fbd: 1\ninputs: {{push: 0 N}}\nbodies:\n{bodies}simulate: {{until: 1 s}}\n"
+    importer = Importer(text, 3, inputs=lambda t: {"push": 3})
+    assert importer.states == 520
+    importer.go_to(0.5, 0.01)
+    for k in (1, 130, 260):
+        rest, rate = 3 / (1 + k % 7), math.sqrt(1 + k % 7)
+        check_close(importer.values([f"b{k}.x"]), {f"b{k}.x": rest + (k - rest) * math.cos(0.5 * rate)}, 1e-7)
+
+
 # ---- the rest of the interface
 
 ENDS = """fbd: 1
@@ -247,7 +265,9 @@ def calls_of_the_other_interface_are_refused():
 
 CLAIMS = [a_motion_without_events_is_integrated, errors_fall_with_the_fourth_power_of_the_step_past_events,
           a_ball_bounces_and_comes_to_rest, mechanisms_stay_closed, ropes_bodies_that_strike_and_switches_in_time,
+          a_mechanism_at_rest_asks_for_no_events,
           an_input_changes_within_steps, an_input_jumps_in_event_mode,
+          a_scene_of_more_than_500_numbers_has_inputs,
           an_event_of_the_file_ends_it_and_parameters_can_be_set,
           a_scene_whose_events_have_no_indicators_is_refused_by_name, calls_of_the_other_interface_are_refused]
 

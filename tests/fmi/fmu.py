@@ -35,7 +35,7 @@ class Variable:
 
 
 class Fmu:
-    def __init__(self, path, folder):
+    def __init__(self, path, folder, load=True):
         with zipfile.ZipFile(path) as archive:
             assert archive.testzip() is None
             self.names = archive.namelist()
@@ -59,8 +59,12 @@ class Fmu:
             machine = os.uname().machine
             place = f"{machine}-linux"
         self.binary = os.path.join(self.folder, "binaries", place, self.identifier + ".so")
-        self.library = c.CDLL(self.binary)
         self.resources = os.path.join(self.folder, "resources") + "/"
+        if load:
+            self.load()
+
+    def load(self):
+        self.library = c.CDLL(self.binary)
 
     def references(self, names):
         return (c.c_uint32 * len(names))(*[self.variables[name].reference for name in names])

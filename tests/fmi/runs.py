@@ -72,6 +72,35 @@ def communication_points_change_no_bit():
         assert ends[0] == ends[1] == ends[2], (model, ends)
 
 
+# ---- works and energies
+
+def is_energy(name):
+    return name.endswith(".work") or name.startswith("energy.")
+
+
+def works_of(model, version, *settings):
+    """An FMU with all of them as outputs, and their names."""
+    names = [name for name in run_csv(model, "--ledger", "--until", "0 s", *settings)[0] if is_energy(name)]
+    return fmu_of(model, version, "--fmu-outputs", ",".join(names), *settings), names
+
+
+def works_and_energies_are_those_of_the_ledger():
+    for number, model in enumerate(gallery() if len(gallery()) > len(THIN) else THIN[::3]):
+        fmu, names = works_of(model, 2 + number % 2)
+        assert fmu.xml.find("ModelExchange") is None
+        until = float(fmu.xml.find("DefaultExperiment").get("stopTime"))
+        rows = run_csv(model, "--ledger", "--every", until / 10)
+        size = max([abs(row[name]) for row in rows for name in names])
+        instance = fmu.open()
+        for row in rows:
+            if row["t"] > 0:
+                instance.go_to(row["t"])
+            got = instance.get(names)
+            for name in names:
+                assert close(got[name], row[name], size, 1e-9), (model, row["t"], name, got[name], row[name])
+        instance.free()
+
+
 # ---- inputs
 
 PUSHED = """fbd: 1
@@ -136,6 +165,32 @@ def swing(F, h, x, v, m=2.0, k=50.0, c=3.0):
     e = math.exp(-decay * h)
     C, S = math.cos(w * h), math.sin(w * h)
     return F / k + e * (A * C + B * S), e * ((w * B - decay * A) * C - (w * A + decay * B) * S)
+
+
+def works_go_on_past_changes_of_inputs_and_saved_states():
+    """The work of a constant force is that of its potential, that of one that varies an integral."""
+    want = run_csv(STEPPED, "--ledger", "--every", 3)[-1]
+    for version in (2, 3):
+        fmu, names = works_of(PUSHED, version)
+        instance = fmu.open()
+        got = drive_steps(instance, False)
+        size = max(abs(want[name]) for name in names)
+        for name in set(names) - {"energy.work", "energy.potential"}:
+            assert close(got[name], want[name], size, 1e-8), (name, got[name], want[name])
+        total = sum(got[name] for name in names if name.startswith("block."))
+        assert close(got["energy.kinetic"], total, size, 1e-8), (got, total)
+        saved = instance.save()
+        serialized = instance.serialize(saved)
+        other = fmu.open()
+        there = other.deserialize(serialized)
+        assert other.restore(there) == OK and other.get() == got
+        assert other.set({"push": -3}) == instance.set({"push": -3}) == OK
+        assert other.go_to(3.5)[0] == instance.go_to(3.5)[0] == OK
+        assert other.get() == instance.get()
+        other.forget(there)
+        instance.forget(saved)
+        instance.free()
+        other.free()
 
 
 def a_control_of_many_steps_is_that_of_the_closed_form():
@@ -332,6 +387,7 @@ def a_parameter_that_cannot_be_is_refused_by_its_reason():
 
 
 CLAIMS = [they_move_as_fbd_run_says, they_do_so_by_FMI_2, communication_points_change_no_bit,
+          works_and_energies_are_those_of_the_ledger, works_go_on_past_changes_of_inputs_and_saved_states,
           inputs_act_as_steps_of_a_table_do, a_control_of_many_steps_is_that_of_the_closed_form,
           an_acceleration_follows_an_input_at_once, events_are_those_of_fbd_run,
           without_early_return_a_step_goes_all_the_way, an_event_of_the_file_that_stops_ends_it,

@@ -86,6 +86,11 @@ simulate: {until: 1 s, method: rk
 """
 
 
+@pytest.mark.parametrize("text, notes", [("services:\n  web: {image: x}\n", 0), ("", 0), ("fbd: 1\n", 1), ('{"bodies": {}}', 2)])
+def test_a_file_that_is_no_model_has_no_diagnostics(text, notes):
+    assert len(session(text)[0]) == notes
+
+
 def test_completion_in_an_unfinished_text():
     at = ["    mo", "{sta", "10 c", "[bl", "method: rk", "mass: m0", "fbd: 1\n"]
     _, answers = session(UNFINISHED, *(("textDocument/completion", after(UNFINISHED, marker)) for marker in at))

@@ -28,6 +28,9 @@ void exchanges(void **context)
     fbd_exchange *exchange = fbd_exchange_new(state, NULL, NULL);
     assert_non_null(exchange);
     ANSWERS(fbd_exchange_state, !fbd_exchange_state(exchange, foreign) && !fbd_exchange_state(NULL, state));
+    REFUSES(fbd_exchange_set_input, !fbd_exchange_set_input(NULL, "F", 1, errors));
+    REFUSES(fbd_exchange_set_input, !fbd_exchange_set_input(exchange, NULL, 1, errors));
+    REFUSES(fbd_exchange_set_input, !fbd_exchange_set_input(exchange, "F", NAN, errors));
     fbd_exchange_free(exchange);
 
     fbd_force_columns *columns = fbd_force_columns_new(model);
@@ -39,6 +42,14 @@ void exchanges(void **context)
             !fbd_force_columns_name(NULL, 0) && !fbd_force_columns_name(columns, past));
     ANSWERS(fbd_force_columns_unit,
             !fbd_force_columns_unit(NULL, 0) && !fbd_force_columns_unit(columns, past));
+    ANSWERS(fbd_force_columns_kind, fbd_force_columns_kind(NULL, 0) == FBD_COLUMN_FORCE &&
+                                        fbd_force_columns_kind(columns, past) == FBD_COLUMN_FORCE);
+    fbd_simulation *simulation = fbd_simulation_new(other, NULL, NULL);
+    assert_non_null(simulation);
+    ANSWERS(fbd_force_columns_follow, !fbd_force_columns_follow(NULL, simulation) &&
+                                          !fbd_force_columns_follow(columns, NULL) &&
+                                          !fbd_force_columns_follow(columns, simulation));
+    fbd_simulation_free(simulation);
     ANSWERS(fbd_force_columns_values, !fbd_force_columns_values(columns, foreign, numbers) &&
                                           !fbd_force_columns_values(NULL, state, numbers));
     fbd_force_columns_free(columns);
