@@ -94,7 +94,7 @@ fbd_stats fbd_simulation_stats(const fbd_simulation *simulation)
     const struct run_options *options = &ensemble->options;
     fbd_stats stats = {.method = options_method(options),
                        .tolerance = options->tolerance,
-                       .events = ensemble->event_count,
+                       .events = (unsigned long)ensemble->event_count,
                        .seconds = simulation->seconds,
                        .groups = ensemble->count,
                        .error_estimate = NAN,
