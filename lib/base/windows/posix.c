@@ -57,7 +57,7 @@ static mode_t mode_of(HANDLE file, const BY_HANDLE_FILE_INFORMATION *information
     switch (GetFileType(file)) {
     case FILE_TYPE_CHAR: return S_IFCHR;
     case FILE_TYPE_PIPE: return S_IFIFO;
-    default: return information->dwFileAttributes & FILE_ATTRIBUTE_DIRECTORY ? S_IFDIR : S_IFREG;
+    default: return (information->dwFileAttributes & FILE_ATTRIBUTE_DIRECTORY) != 0 ? S_IFDIR : S_IFREG;
     }
 }
 
@@ -95,18 +95,22 @@ int posix_stat(const char *path, struct posix_stat *status)
     return result;
 }
 
+static DWORD rights_of(int flags)
+{
+    if (flags & O_RDWR) return GENERIC_READ | GENERIC_WRITE;
+    return (flags & O_WRONLY) != 0 ? GENERIC_WRITE : GENERIC_READ;
+}
+
 static DWORD creation_of(int flags)
 {
     if (!(flags & O_CREAT)) return OPEN_EXISTING;
-    return flags & O_EXCL ? CREATE_NEW : flags & O_TRUNC ? CREATE_ALWAYS : OPEN_ALWAYS;
+    if (flags & O_EXCL) return CREATE_NEW;
+    return (flags & O_TRUNC) != 0 ? CREATE_ALWAYS : OPEN_ALWAYS;
 }
 
 int posix_open(const char *path, int flags, ...)
 {
-    const DWORD rights = flags & O_RDWR     ? GENERIC_READ | GENERIC_WRITE
-                         : flags & O_WRONLY ? GENERIC_WRITE
-                                            : GENERIC_READ;
-    HANDLE file = handle_of(path, rights, creation_of(flags), FILE_ATTRIBUTE_NORMAL);
+    HANDLE file = handle_of(path, rights_of(flags), creation_of(flags), FILE_ATTRIBUTE_NORMAL);
     if (file == INVALID_HANDLE_VALUE) return failed();
     int descriptor = _open_osfhandle((intptr_t)file, (flags & O_APPEND) | O_BINARY | O_NOINHERIT);
     if (descriptor < 0) CloseHandle(file);
