@@ -64,7 +64,7 @@ fuzz: $(BUILD)-fuzz/build.ninja $(BUILD)-count/build.ninja
 	tests/fuzz/run $(BUILD)-fuzz --runs=$$(($(RUNS) / 10))
 endif
 
-# fbd-run for other machines, by cross compilers and qemu: TARGETS of i686 (32 bits), s390x (big endian), musl. Every model of
+# fbd-run for other machines, by cross compilers and qemu: TARGETS of i686 (32 bits), s390x (big endian), musl, windows (by wine). Every model of
 # the gallery does there what it does here. Some minutes for each.
 TARGETS = i686
 portability: all

@@ -256,7 +256,7 @@ static bool take_option(const struct command_line *unused, int option, void *con
     case option_quiet: options->quiet = true; return true;
     case option_full: options->full = true; return true;
     case option_degrees: options->degrees = true; return true;
-    case option_watch: options->watch = true; return true;
+    case option_watch: options->watch = true; return watch_is_possible(&line);
     case option_settle: options->settle = true; return true;
     case option_at:
         if (options->at_count == most_settings) return usage("too many --at", "");

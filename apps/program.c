@@ -13,15 +13,20 @@
 
 extern char **environ;
 
+/* Between the folders of PATH. */
+#ifndef PATH_SEPARATOR
+#define PATH_SEPARATOR ":"
+#endif
+
 bool program_is_there(const char *name)
 {
     const char *path = getenv("PATH");
     char place[4096];
     for (const char *folder = path ? path : ""; *folder;) {
-        size_t length = strcspn(folder, ":");
+        size_t length = strcspn(folder, PATH_SEPARATOR);
         int size = snprintf(place, sizeof place, "%.*s/%s", (int)length, folder, name);
         if (size > 0 && (size_t)size < sizeof place && access(place, X_OK) == 0) return true;
-        folder += length + (folder[length] == ':');
+        folder += length + (folder[length] != '\0');
     }
     return false;
 }

@@ -32,6 +32,9 @@ struct watch {
     void *context;
 };
 
+/* False, with a message, on systems without the processes that it needs. */
+bool watch_is_possible(const struct command_line *line);
+
 /* Alternate between running and waiting until a signal ends the process (Ctrl-C: 130). Returns only on
  * failure. */
 enum exit_code watch_files(const struct watch *watch);

@@ -15,9 +15,9 @@
 /* mkstemp makes files readable only by their owner; a new file gets the usual mode. */
 static mode_t usual_mode(void)
 {
-    mode_t mask = umask(0);
+    mode_t mask = (mode_t)umask(0);
     umask(mask);
-    return 0666 & ~mask;
+    return (mode_t)(0666 & ~mask);
 }
 
 /* If the group cannot be kept, reduce the permissions of the new group to those of all others. */

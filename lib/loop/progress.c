@@ -29,8 +29,8 @@ static unsigned long work_done(const struct run *run)
 {
     const unsigned long price = 16;
     unsigned long samples = (unsigned long)(run->search.moving.samples + run->search.timed.samples);
-    unsigned long dear = run->system.jacobians + run->log.count;
-    return (run->system.rhs + samples + price * dear) * plan_size(&run->model->plan);
+    unsigned long dear = run->system.jacobians + (unsigned long)run->log.count;
+    return (run->system.rhs + samples + price * dear) * (unsigned long)plan_size(&run->model->plan);
 }
 
 /* Work between checks: some tenths of a second to some seconds of processor time, depending on the right-hand

@@ -80,7 +80,7 @@ static int sample_moving(void *context, double t, const bool *asked, double *val
 static unsigned long work_so_far(void *context)
 {
     const struct counted_system *system = &((const struct run *)context)->system;
-    return system->rhs + system->jacobians * system->inner.dimension;
+    return system->rhs + system->jacobians * (unsigned long)system->inner.dimension;
 }
 
 static void enclose_timed(void *context, size_t group, const struct stretch *stretch, struct enclosure *out)

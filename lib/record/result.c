@@ -95,7 +95,7 @@ fbd_stats fbd_simulation_stats(const fbd_simulation *simulation)
     fbd_stats stats = simulation->past.cost;
     stats.method = options_method(options);
     stats.tolerance = options->tolerance;
-    stats.events = ensemble->event_count;
+    stats.events = (unsigned long)ensemble->event_count;
     stats.seconds = simulation->seconds;
     stats.groups = ensemble->count;
     stats.linear = stats.constant = stats.velocity_free = 0; /* of the groups that there are now */
