@@ -154,8 +154,7 @@ static bool is_driven(const struct draft_place *place)
                       *motion = lines_value(body, "motion");
     bool driven = false;
     for (size_t i = 0; motion && motion->kind == node_map && i < motion->count; i++)
-        for (size_t k = 0; k < 3; k++)
-            driven = driven || lines_value(motion->pairs[i].value, coordinates[k]);
+        for (size_t k = 0; k < 3; k++) driven = driven || lines_value(motion->pairs[i].value, coordinates[k]);
     return driven;
 }
 
