@@ -300,6 +300,10 @@ FBD_API bool fbd_state_named_force(fbd_state *state, size_t body, const char *na
  * and closed contacts are closed. Forces that do not depend on the modes are known in any case. */
 FBD_API bool fbd_state_settle(fbd_state *state);
 
+/* Let all forces and moments of the file act at a state, also those that begin later (`from`) or have ended (`until`):
+ * scenes are compared with all of them. The next call that needs the modes determines them anew. */
+FBD_API void fbd_state_let_forces_act(fbd_state *state);
+
 /* The accelerations at a state, in its modes: of each coordinate, in the order of fbd_model_coordinate and in the
  * unit of its rate per second. Fills at most `room` of them; returns their number. */
 FBD_API size_t fbd_state_accelerations(fbd_state *state, double *accelerations, size_t room);
@@ -309,7 +313,8 @@ FBD_API size_t fbd_state_accelerations(fbd_state *state, double *accelerations, 
  * out. */
 FBD_API fbd_state *fbd_state_new_start(const fbd_model *model);
 
-/* Random states of a model, always the same sequence. The model must outlive it. */
+/* Random states of a model with all its forces (fbd_state_let_forces_act), always the same sequence. The model must
+ * outlive it. */
 typedef struct fbd_sampler fbd_sampler;
 
 /* NULL when memory is out. */

@@ -117,6 +117,7 @@ static void describe_reaction(const fbd_model *model, int b, const struct instan
                 if (coupling->kind == constraint_contact) force->contact = coupling->constraint;
                 along = direction_of(coupling, k, row, at);
                 force->free = coupling->row_count > 1 && !coupling->law->end_names[1];
+                force->couples = coupling_has_couple(coupling);
                 found = 1;
             }
     }

@@ -41,6 +41,11 @@ fbd_state *fbd_state_new_start(const fbd_model *model)
     return state;
 }
 
+void fbd_state_let_forces_act(fbd_state *state)
+{
+    if (state) state_let_forces_act(state);
+}
+
 fbd_sampler *fbd_sampler_new(const fbd_model *model)
 {
     fbd_sampler *sampler = model ? calloc(1, sizeof *sampler) : NULL;
@@ -70,6 +75,7 @@ bool fbd_sampler_start(fbd_sampler *sampler, fbd_state *state, bool any_time)
     const struct value *until = &sampler->model->scene->simulate.until;
     if (any_time && model_is_driven(sampler->model)) return false;
     state_copy(state, sampler->start);
+    state_let_forces_act(state);
     if (any_time) state->t = gsl_rng_uniform(sampler->rng) * (until->expr ? expr_value(until->expr) : 1);
     return fbd_state_settle(state);
 }

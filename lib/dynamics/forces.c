@@ -39,6 +39,7 @@ static void add_joint_forces(const struct plan *plan, const struct instant *at,
     for (int i = potentials.first; i < range_end(potentials); i++) {
         const struct potential_term *term = &plan->potentials[i];
         double slope;
+        if (!is_there(at->tree, term->lifetime)) continue;
         expr_eval_slot(term->V.expr, at->t, at->y, 1 + term->coordinate, formula_branches(&term->V, at),
                        &slope);
         slots[term->coordinate] -= slope;
@@ -70,5 +71,6 @@ void force_slots_along(const struct fbd_model *model, const struct instant *at, 
         variation[term->coordinate] -= term->kq * dq[term->coordinate] + term->kv * dv[term->coordinate];
     }
     for (size_t i = 0; i < plan->potential_count; i++)
-        variation[plan->potentials[i].coordinate] -= slope_variation(&plan->potentials[i], at, along);
+        if (is_there(at->tree, plan->potentials[i].lifetime))
+            variation[plan->potentials[i].coordinate] -= slope_variation(&plan->potentials[i], at, along);
 }

@@ -114,6 +114,9 @@ void state_free(struct fbd_state *state);
 /* Set in `to` which loads and constraints are there as in `from`; both are of the same scene, or of islands of it. */
 void state_copy_lives(struct fbd_state *to, const struct fbd_state *from);
 
+/* Let all forces and moments of the file act, also those that begin later. */
+void state_let_forces_act(struct fbd_state *state);
+
 /* Make `to` equal to `from`; both belong to the same model. */
 void state_copy(struct fbd_state *to, const struct fbd_state *from);
 

@@ -98,6 +98,16 @@ void state_copy_lives(struct fbd_state *to, const struct fbd_state *from)
            (size_t)from->model->scene->lifetime_count * sizeof *from->tree->life);
 }
 
+void state_let_forces_act(struct fbd_state *state)
+{
+    const struct fbd_model *model = state->model;
+    for (size_t i = 0; i < model->load_count; i++) {
+        const int lifetime = model->loads[i].source->lifetime.number;
+        if (lifetime > 0) state->tree->life[lifetime - 1] = life_there;
+    }
+    state->settled = false;
+}
+
 void state_copy(struct fbd_state *to, const struct fbd_state *from)
 {
     const struct plan *plan = &from->model->plan;

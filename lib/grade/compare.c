@@ -332,6 +332,7 @@ static void take_state(struct comparison *comparison, size_t s)
         sides->like_start[s] = twin->slip == slip;
         sides->possible[s] = comparison->possible;
         sides->starts[s] = comparison->starts;
+        fbd_state_get(comparison->key_state, "t", &sides->times[s]);
         sides->samples = s + 1;
     }
 }
@@ -401,6 +402,7 @@ static bool open_comparison(struct comparison *comparison)
     comparison->body_count = fbd_model_body_count(key);
     comparison->key_state = fbd_state_new(key);
     comparison->state = fbd_state_new(answer);
+    fbd_state_let_forces_act(comparison->state);
     comparison->sampler = fbd_sampler_new(key);
     comparison->twins = calloc(comparison->body_count + 1, sizeof *comparison->twins);
     return comparison->key_state && comparison->state && comparison->sampler && comparison->twins;

@@ -48,7 +48,8 @@ struct sides {
     bool like_start[most_grade_samples]; /* the body slips as it does at the start */
     bool possible
         [most_grade_samples]; /* the key has an admissible motion there, so its reactions are defined */
-    bool starts[most_grade_samples];      /* it is the start, perhaps at another time */
+    bool starts[most_grade_samples];      /* it is the start, perhaps at another time, */
+    double times[most_grade_samples];     /* which is this */
     bool turns;                           /* moments about G matter */
     double turned;                        /* angle of the answer's frame in the body, relative to the key's */
     double tolerance, force, arm, moment; /* reference magnitudes */

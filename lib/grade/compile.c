@@ -21,6 +21,14 @@ fbd_model *grade_compile(struct fbd_grade *grade, const struct node *root, const
     return tree_compile(root, file, settings, count, hands, errors);
 }
 
+fbd_state *grade_start(const fbd_model *model)
+{
+    fbd_state *state = fbd_state_new_start(model);
+    fbd_state_let_forces_act(state);
+    fbd_state_settle(state);
+    return state;
+}
+
 void grade_read_hands(struct fbd_grade *grade, const struct node *root, const char *const *names,
                       size_t name_count, fbd_take_derivation *take, void *context)
 {

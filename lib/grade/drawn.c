@@ -84,7 +84,8 @@ static const char *as_expression(struct arena *arena, const struct node *value)
         if (power > behind + 1) behind = power;
     }
     const char *unit = behind + strspn(behind, " ");
-    if (behind == text || !is_of_word(*unit, true)) return arena_printf(arena, "(%s)", text);
+    const bool number = strcspn(text, "0123456789") < (size_t)(behind - text);
+    if (!number || !is_of_word(*unit, true)) return arena_printf(arena, "(%s)", text);
     return arena_printf(arena, "(%.*s[%s])", (int)(behind - text), text, unit);
 }
 
@@ -145,6 +146,18 @@ static const struct node *take_value(const struct draft_place *place, const stru
     return with_text(arena, keys, "value", minus ? back : one);
 }
 
+/* True if a body moves as prescribed, by a force called `drive`. */
+static bool is_driven(const struct draft_place *place)
+{
+    static const char *const coordinates[] = {"x", "s", "theta"};
+    const struct node *body = lines_value(lines_value(place->root, "bodies"), place->body),
+                      *motion = lines_value(body, "motion");
+    bool driven = false;
+    for (size_t i = 0; motion && motion->kind == node_map && i < motion->count; i++)
+        for (size_t k = 0; k < 3; k++) driven = driven || lines_value(motion->pairs[i].value, coordinates[k]);
+    return driven;
+}
+
 /* True for the name of a coupling or contact of the file, or of the force of a joint. */
 static bool is_of_model(const struct node *root, const char *name)
 {
@@ -172,7 +185,9 @@ static const struct node *with_own_name(const struct draft_place *place, const s
                                         const struct drawn *drawn)
 {
     struct arena *arena = &place->grade->arena;
-    if (!keys || !drawn->name || !is_of_model(place->root, drawn->name)) return keys;
+    if (!keys || !drawn->name) return keys;
+    const bool drive = strcmp(drawn->name, "drive") == 0 && is_driven(place);
+    if (!drive && !is_of_model(place->root, drawn->name)) return keys;
     const char *name = arena_printf(arena, "%s_drawn", drawn->name);
     return name ? with_text(arena, keys, "name", name) : NULL;
 }

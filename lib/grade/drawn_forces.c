@@ -62,7 +62,7 @@ void drawn_find_forces(struct fbd_grade *grade)
     fbd_state *state = NULL;
     for (struct drawn *one = grade->drawn; one; one = one->next) {
         if (!one->reaction) continue;
-        if (!state) state = fbd_state_new_start(grade->sheet);
+        if (!state) state = grade_start(grade->sheet);
         if (!state) grade->arena.failed = true;
         for (size_t b = 0; state && b < fbd_model_body_count(grade->sheet); b++) {
             fbd_named_force force;

@@ -33,7 +33,9 @@ struct fbd_key {
     size_t set_count;
     double most;  /* points */
     size_t lines; /* derivations */
-    bool **asked; /* of each body, for each arrow after the listed ones: it must be drawn */
+    /* Of each body, for each arrow after the listed ones: NAN, or it must be drawn, and the time of the first state
+     * where it is not zero: 0, or that of the start at another time. */
+    double **asked;
     size_t *asked_count;
 };
 
@@ -118,6 +120,9 @@ fbd_model *tree_compile(const struct node *root, const char *file, const fbd_set
 /* Compile a tree of an answer or of the key under the student's values. NULL with notes. */
 fbd_model *grade_compile(struct fbd_grade *grade, const struct node *root, const char *file, bool hands,
                          fbd_errors *errors);
+
+/* The start of a model at which diagrams are compared, with all its forces; NULL when memory is out. */
+fbd_state *grade_start(const fbd_model *model);
 
 /* Read a tree with derivations that may name forces of the sheet and these others; `take` receives each as an expression. The
  * notes on errors are dropped: they are found again when it is compiled. */

@@ -62,7 +62,7 @@ size_t student_settings(struct arena *arena, const struct fbd_key *key, const ch
 size_t key_asks(const struct fbd_key *key, size_t b)
 {
     size_t count = 0;
-    for (size_t i = 0; i < key->asked_count[b]; i++) count += key->asked[b][i];
+    for (size_t i = 0; i < key->asked_count[b]; i++) count += isnan(key->asked[b][i]) ? 0 : 1;
     return count;
 }
 

@@ -2,6 +2,7 @@
  *
  * Reading a key: it is graded against itself.
  */
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -45,7 +46,7 @@ static void add_names(const struct fbd_key *key, size_t b, struct text *text)
     size_t count = forces && state ? fbd_state_forces(state, b, forces, body.most_forces) : SIZE_MAX;
     if (count == SIZE_MAX) text->failed = true;
     for (size_t i = 0; !text->failed && i < key->asked_count[b] && body.listed + i < count; i++)
-        if (key->asked[b][i])
+        if (!isnan(key->asked[b][i]))
             text_printf(text, "%s`%s` on `%s`", text->length ? ", " : "", forces[body.listed + i].arrow.name,
                         body.name);
     free(forces);
@@ -101,7 +102,7 @@ static bool check_itself(struct fbd_key *key, fbd_errors *errors)
 static bool find_asked(struct fbd_key *key)
 {
     size_t count = fbd_model_body_count(key->model);
-    key->asked = ARENA_ARRAY(&key->arena, count + 1, bool *);
+    key->asked = ARENA_ARRAY(&key->arena, count + 1, double *);
     key->asked_count = ARENA_ARRAY(&key->arena, count + 1, size_t);
     bool done = key->asked && key->asked_count && compare_with_itself(key);
     if (!done) key->arena.failed = true;

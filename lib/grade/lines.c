@@ -82,7 +82,7 @@ static bool look_at_values(struct lines *lines, int body, const char *text, doub
 static bool take_form(struct lines *lines, int body, struct line *line)
 {
     if (!(line->is.names & (unsigned)FBD_NAMES_FORCES)) return true;
-    fbd_state *state = fbd_state_new_start(lines->alone);
+    fbd_state *state = grade_start(lines->alone);
     const fbd_residual residual = fbd_state_residual(state, (size_t)body, 0);
     memcpy(line->form, residual.slopes, sizeof line->form);
     fbd_state_free(state);

@@ -4,6 +4,7 @@
  */
 #include "grade/reactions_work.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "fbd_grade.h"
@@ -55,21 +56,22 @@ static bool is_named(const struct item *key, const char *name)
     return strncmp(key->name, name, length) == 0 && (key->name[length] == '\0' || key->name[length] == '.');
 }
 
-static bool has_to_be_drawn(const fbd_grading *grading, const struct sides *sides, const struct item *key)
+/* The time of its state of comparison; NAN where it need not be drawn. */
+static double drawn_at_time(const fbd_grading *grading, const struct sides *sides, const struct item *key)
 {
     bool named = grading->reactions == FBD_REACTIONS_ALL;
-    if (!key->name) return false;
+    if (!key->name) return NAN;
     for (size_t i = 0; i < grading->reaction_count; i++)
         named = named || is_named(key, grading->reaction_names[i]);
     size_t s = named ? reaction_when(sides, key) : sides->samples;
-    return s < sides->samples && sides->starts[s];
+    return s < sides->samples && sides->starts[s] ? sides->times[s] : NAN;
 }
 
 bool reactions_note_asked(struct fbd_key *key, size_t b, const struct sides *sides)
 {
-    bool *asked = ARENA_ARRAY(&key->arena, sides->reaction_count + 1, bool);
+    double *asked = ARENA_ARRAY(&key->arena, sides->reaction_count + 1, double);
     for (size_t i = 0; asked && i < sides->reaction_count; i++)
-        asked[i] = has_to_be_drawn(&key->grading, sides, &sides->reactions[i]);
+        asked[i] = drawn_at_time(&key->grading, sides, &sides->reactions[i]);
     key->asked[b] = asked;
     key->asked_count[b] = asked ? sides->reaction_count : 0;
     return asked != NULL;
@@ -78,5 +80,5 @@ bool reactions_note_asked(struct fbd_key *key, size_t b, const struct sides *sid
 void reactions_take_asked(const struct fbd_key *key, size_t b, struct sides *sides)
 {
     for (size_t i = 0; i < sides->reaction_count; i++)
-        sides->reactions[i].asked = i < key->asked_count[b] && key->asked[b][i];
+        sides->reactions[i].asked = i < key->asked_count[b] && !isnan(key->asked[b][i]);
 }

@@ -28,52 +28,74 @@ static void write_name(struct text *text, const char *name)
     for (; *name; name++) text_printf(text, "%c", *name == '.' ? '_' : *name);
 }
 
-static void write_reaction(struct text *text, bool us, const fbd_arrow *arrow, bool moments,
+/* A value in the units of the model; `unknown` with its sense. */
+static void write_size(struct text *text, bool known, double size, const char *unit)
+{
+    if (known)
+        text_printf(text, ", value: %.6g %s", size, unit);
+    else
+        text_printf(text, ", value: %sunknown", size < 0 ? "-" : "");
+}
+
+static void write_reaction(struct text *text, bool us, const fbd_arrow *arrow, bool moments, bool known,
                            const struct vec *from)
 {
     const double size = hypot(arrow->fx, arrow->fy);
     text_add(text, "      - applied: {name: ");
     write_name(text, arrow->name);
     if (moments) {
-        text_printf(text, "%s, value: %.6g %s}\n", size > 0 ? "_moment" : "", arrow->couple,
-                    us ? "lbf*ft" : "N*m");
-        return;
+        text_add(text, size > 0 ? "_moment" : "");
+        write_size(text, known, arrow->couple, us ? "lbf*ft" : "N*m");
+    } else {
+        write_size(text, known, size, us ? "lbf" : "N");
+        text_printf(text, ", angle: %.5g deg", atan2(arrow->fy, arrow->fx) * 57.29577951308232);
+        if (from) text_printf(text, ", at: {point: G, offset: [%.6g, %.6g]}", from->x, from->y);
     }
-    text_printf(text, ", value: %.6g %s, angle: %.5g deg", size, us ? "lbf" : "N",
-                atan2(arrow->fy, arrow->fx) * 57.29577951308232);
-    if (from) text_printf(text, ", at: {point: G, offset: [%.6g, %.6g]}", from->x, from->y);
     text_add(text, "}\n");
+}
+
+/* Where a reaction is not zero: by its value at the start, else by its sense at that time. */
+static bool write_asked(const struct handout *handout, fbd_state *state, size_t b, size_t index, bool moments,
+                        fbd_listed_force *forces)
+{
+    const fbd_body body = fbd_model_body(handout->model, b);
+    const double time = handout->key->asked[b][index];
+    if (time > 0 && fbd_state_set(state, "t", time)) fbd_state_settle(state);
+    const bool turns = body.motion != FBD_MOTION_SLIDE && body.motion != FBD_MOTION_PARTICLE,
+               us = strcmp(fbd_model_scene(handout->model).units, "US") == 0;
+    const fbd_pose pose = fbd_state_pose(state, b);
+    const size_t count = fbd_state_forces(state, b, forces, body.most_forces);
+    if (count == SIZE_MAX) return false;
+    if (body.listed + index >= count) return true;
+    const fbd_arrow *arrow = &forces[body.listed + index].arrow;
+    const struct vec from = {arrow->x - pose.G[0], arrow->y - pose.G[1]};
+    if (moments ? arrow->couple != 0 : hypot(arrow->fx, arrow->fy) > 0)
+        write_reaction(handout->text, us, arrow, moments, time == 0, turns ? &from : NULL);
+    return true;
 }
 
 void solution_reactions(const struct handout *handout, const char *body_name, bool moments)
 {
     const fbd_model *model = handout->model;
-    const bool us = strcmp(fbd_model_scene(model).units, "US") == 0;
+    const struct fbd_key *key = handout->key;
     size_t b = 0;
     while (strcmp(fbd_model_body_name(model, b), body_name) != 0) b++;
-    if (key_asks(handout->key, b) == 0) return;
-    const fbd_body body = fbd_model_body(model, b);
-    fbd_state *state = fbd_state_new_start(model);
-    fbd_listed_force *forces = calloc(body.most_forces + 1, sizeof *forces);
-    bool turns = body.motion != FBD_MOTION_SLIDE && body.motion != FBD_MOTION_PARTICLE;
-    const fbd_pose pose = fbd_state_pose(state, b);
-    size_t count = forces && state ? fbd_state_forces(state, b, forces, body.most_forces) : SIZE_MAX;
-    if (count == SIZE_MAX) handout->arena->failed = true;
-    for (size_t i = 0; count != SIZE_MAX && i < handout->key->asked_count[b] && body.listed + i < count;
-         i++) {
-        const fbd_arrow *arrow = &forces[body.listed + i].arrow;
-        struct vec from = {arrow->x - pose.G[0], arrow->y - pose.G[1]};
-        bool there = moments ? arrow->couple != 0 : hypot(arrow->fx, arrow->fy) > 0;
-        if (handout->key->asked[b][i] && there)
-            write_reaction(handout->text, us, arrow, moments, turns ? &from : NULL);
+    if (key_asks(key, b) == 0) return;
+    fbd_listed_force *forces = calloc(fbd_model_body(model, b).most_forces + 1, sizeof *forces);
+    bool done = forces != NULL;
+    for (size_t i = 0; done && i < key->asked_count[b]; i++) {
+        if (isnan(key->asked[b][i])) continue;
+        fbd_state *state = grade_start(model);
+        done = state && write_asked(handout, state, b, i, moments, forces);
+        fbd_state_free(state);
     }
+    if (!done) handout->arena->failed = true;
     free(forces);
-    fbd_state_free(state);
 }
 
 void solution_equations(const struct handout *handout)
 {
-    fbd_state *state = fbd_state_new_start(handout->model);
+    fbd_state *state = grade_start(handout->model);
     char *equations = state ? fbd_equations_write(state, NULL, NULL) : NULL;
     if (!equations) handout->arena->failed = true;
     text_add(handout->text, "#\n");

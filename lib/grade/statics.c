@@ -124,7 +124,7 @@ static bool add_sums(struct lines *lines, const fbd_model *model, struct units u
                      double *sum, double *size)
 {
     const fbd_model *key = lines->grade->sheet;
-    fbd_state *state = fbd_state_new_start(model);
+    fbd_state *state = grade_start(model);
     bool done = state != NULL;
     for (size_t b = 0; done && b < fbd_model_body_count(model); b++) {
         const fbd_body body = fbd_model_body(model, b);
@@ -300,7 +300,7 @@ static double rest_beyond(double *a, const double *base, int count)
 
 static double lack_of(const fbd_model *model, int body, double *size)
 {
-    fbd_state *state = model ? fbd_state_new_start(model) : NULL;
+    fbd_state *state = model ? grade_start(model) : NULL;
     const fbd_residual residual = fbd_state_residual(state, (size_t)body, 0);
     fbd_state_free(state);
     *size = residual.size;

@@ -17,7 +17,8 @@ static void add_potential(struct builder *builder, const struct model_body *body
         int coordinate = slots[k] - 1;
         if (coordinate >= body->first && coordinate < body->first + body->count)
             plan->potentials[plan->potential_count++] =
-                (struct potential_term){coordinate, body->place.link, load->potential};
+                (struct potential_term){coordinate, body->place.link, load->source->lifetime.number,
+                                        load->potential};
     }
 }
 

@@ -46,6 +46,7 @@ struct formula_term {
 /* Q -= dV/dq */
 struct potential_term {
     int coordinate, link;
+    int lifetime; /* as of an affine term */
     struct formula V;
 };
 

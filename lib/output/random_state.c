@@ -131,22 +131,12 @@ static bool draw_closed(gsl_rng *rng, struct fbd_state *state, struct random_pat
     return state_project(state, false) && contacts_overlap(state, &depth) < 0;
 }
 
-/* Equations are compared with all forces and moments of the file, also those that begin later. */
-static void let_forces_act(struct fbd_state *state)
-{
-    const struct fbd_model *model = state->model;
-    for (size_t i = 0; i < model->load_count; i++) {
-        const int lifetime = model->loads[i].source->lifetime.number;
-        if (lifetime > 0) state->tree->life[lifetime - 1] = life_there;
-    }
-}
-
 bool random_state(gsl_rng *rng, struct fbd_state *state, struct random_path *path)
 {
     const struct scene *scene = state->model->scene;
     size_t n = scene->coordinate_count;
     state_copy(state, path->start);
-    let_forces_act(state);
+    state_let_forces_act(state);
     state->t = between(rng, 0, duration_of(scene));
     for (size_t i = 0; i < n; i++) {
         const struct coordinate *c = &scene->coordinates[i];
@@ -160,7 +150,6 @@ bool random_state(gsl_rng *rng, struct fbd_state *state, struct random_path *pat
         double reach = fmax(1, 2 * fabs(scene->own[i].initial));
         state->y[2 * n + i] = between(rng, -reach, reach);
     }
-    state->settled = false;
     return draw_closed(rng, state, path);
 }
 

@@ -202,6 +202,27 @@ static const char *not_given(const struct group *group)
     return NULL;
 }
 
+/* Forces that are there all the time, and how what is meant is said. */
+static const char *const lasting[][2] = {
+    {"`gravity`",
+     "the weight acts all the time; a force in a part of the run is `applied`, as `applied: {value: 5 N, "
+     "angle: -90 deg, from: t > 2 s}`"},
+    {"`normal`",
+     "the normal force acts as long as the body touches; a support that is removed is a contact, under "
+     "`contacts`: `until: t > 2 s`"},
+    {"`friction`", "friction acts as long as there is a normal force; coefficients may vary, as `kinetic: "
+                   "0.3*step(t - 2[s])`"},
+};
+
+/* A hint for a condition at which a force begins or ends that is there all the time; else NULL. */
+static const char *not_passing(const struct group *group, const char *key)
+{
+    if (strcmp(key, "from") != 0 && strcmp(key, "until") != 0) return NULL;
+    for (size_t i = 0; i < sizeof lasting / sizeof *lasting; i++)
+        if (strcmp(group->name, lasting[i][0]) == 0) return lasting[i][1];
+    return NULL;
+}
+
 static const char in_quotes[] =
     "a comma separates entries inside braces: put the expression in quotes, as `\"min(1, 2)\"`";
 
@@ -238,6 +259,7 @@ static void note_unknown_key(struct reader *reader, const struct group *group, c
     if (strstr(pair->key, "\xC2\xA0"))
         hint = "it contains a no-break space (U+00A0), as pasted text does: type a blank in its place";
     if (!hint) hint = behind_a_comma(map, pair);
+    if (!hint) hint = not_passing(group, pair->key);
     if (!hint) hint = not_given(group);
     if (!hint) hint = misplaced(reader->errors, group, pair->key);
     if (!hint) hint = translated(reader->errors, group, pair->key);

@@ -36,6 +36,16 @@ static const struct field lifetime_fields[] = {
 static const struct group passing = {"a load", NULL, FIELDS(lifetime_fields),
                                      &named,   0,    "which may begin and end"};
 
+/* Those of a load along a line, whose `from` is a point. */
+static const struct field spread_fields[] = {
+    FIELD_NODE(offsetof(struct load_keys, since), "since", field_scalar, 0, NULL,
+               "the condition at which it begins, as `t > 2 s`; default from the start"),
+    FIELD_NODE(offsetof(struct load_keys, until), "until", field_scalar, 0, NULL,
+               "the condition at which it ends, as `t > 2 s`; default never"),
+};
+static const struct group passing_spread = {"a load", NULL, FIELDS(spread_fields),
+                                            &named,   0,    "which may begin and end"};
+
 #define LOAD_GROUP(title, brief, table, doc)                                                                 \
     {                                                                                                        \
         title, brief, FIELDS(table), &named, 0, doc                                                          \
@@ -129,8 +139,9 @@ static const struct field distributed_fields[] = {
     FIELD_VALUE(offsetof(struct load_keys, factor), "factor", a_number, 0,
                 "a factor of the whole load, such as `sin(w*t)`; default 1"),
 };
-static const struct group distributed_group =
-    LOAD_GROUP("a distributed load", NULL, distributed_fields, "a force per length along a line of the body");
+static const struct group distributed_group = {
+    "a distributed load", NULL, FIELDS(distributed_fields),
+    &passing_spread,      0,    "a force per length along a line of the body"};
 
 static const struct field spring_fields[] = {
     FIELD_NUMBER(LOAD(stiffness), "stiffness", a_stiffness, required | not_negative | stored,
@@ -212,7 +223,7 @@ static const struct field potential_fields[] = {
                 "potential energy, of the body's coordinates"),
 };
 static const struct group potential_group =
-    LOAD_GROUP("`potential`", "V", potential_fields, "a force f = -dV/dx");
+    PASSING_GROUP("`potential`", "V", potential_fields, "a force f = -dV/dx");
 
 /* ---- across a slide */
 
@@ -360,7 +371,7 @@ static const struct group moment_friction_group =
     LOAD_GROUP("`friction`", "coefficient", moment_friction_fields, "dry friction of a bearing, as a moment");
 
 static const struct group moment_potential_group =
-    LOAD_GROUP("`potential`", "V", potential_fields, "a moment M = -dV/dtheta");
+    PASSING_GROUP("`potential`", "V", potential_fields, "a moment M = -dV/dtheta");
 
 #define NO_TURNING "a slide and a particle do not turn: use `pivot` or `planar`"
 

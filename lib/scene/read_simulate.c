@@ -72,12 +72,18 @@ struct lifetime lifetime_of(struct reader *reader, const struct node *since, con
                              .ends = until != NULL};
 }
 
+/* The key of a begin: `from` of a load along a line is a point. */
+static const char *key_of_begin(const struct names *names)
+{
+    return names->of_load && names->of_load->spread.length > 0 ? "since" : "from";
+}
+
 /* The condition in the key `from` or `until` of the force or constraint called `name`. */
 static bool read_ending(struct reader *reader, const struct lifetime *lifetime, bool begins, const char *name,
                         const struct names *names)
 {
     struct condition condition = {.node = begins ? lifetime->since : lifetime->until,
-                                  .key = begins ? "from" : "until",
+                                  .key = begins ? key_of_begin(names) : "until",
                                   .hint = begins ? "write for example `t > 2 s`"
                                                  : "write for example `force > 500 N` or `t > 2 s`",
                                   .names = *names};

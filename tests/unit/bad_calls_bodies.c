@@ -40,6 +40,7 @@ void states_for_comparison(void **context)
     fbd_sampler *sampler = fbd_sampler_new(model);
     assert_true(state && foreign && sampler);
     ANSWERS(fbd_state_settle, !fbd_state_settle(NULL));
+    ENDURES(fbd_state_let_forces_act, fbd_state_let_forces_act(NULL));
     ANSWERS(fbd_state_accelerations, fbd_state_accelerations(NULL, NULL, 0) == 0);
     ANSWERS(fbd_state_accelerations, fbd_state_accelerations(state, NULL, 7) == 1);
     ANSWERS(fbd_state_new_start, !fbd_state_new_start(NULL));

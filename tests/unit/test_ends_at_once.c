@@ -116,6 +116,63 @@ static void a_power_that_has_ended_divides_by_nothing(void **unused)
     checks_end(&checks);
 }
 
+/* V = 50 x^2 of 1 kg until t = 1: x = 0.1 cos 10 t, and on with v = -sin 10; from t = 1 on: x = 0.1 cos 10(t - 1). On a
+ * pivot as on a slide, and on a particle with V(x, y); also with another body on it. The energy V is that of the ledger. */
+static void a_potential_begins_and_ends(void **unused)
+{
+    static const struct {
+        const char *body, *x;
+    } scenes[] = {
+        {"motion: slide, initial: {x: 0.1}, forces: [potential: {name: p, V: 50*x^2, %s}]", "x"},
+        {"motion: particle, initial: {x: 0.1}, forces: [potential: {name: p, V: 50*(x^2 + y^2), %s}]", "b.x"},
+        {"inertia: 1 kg*m^2, motion: pivot, initial: {theta: 0.1}, moments: [potential: {name: p, V: "
+         "50*theta^2, %s}]",
+         "theta"},
+        {"motion: slide, initial: {x: 0.1}, forces: [potential: {name: p, V: 50*x^2, %s}]}, c: {mass: 2, "
+         "motion: "
+         "{slide: {on: b, along: 90 deg}}",
+         "b.x"}};
+    struct checks checks = {0};
+    (void)unused;
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
+        for (int ends = 0; ends < 2; ends++) {
+            char body[text_room / 2], text[text_room];
+            const double m = i == 3 ? 3 : 1, w = sqrt(100 / m), x = ends ? 0.1 * cos(w) : 0.1,
+                         v = ends ? -0.1 * w * sin(w) : 0, V = 50 * x * x;
+            snprintf(body, sizeof body, scenes[i].body, ends ? "until: t > 1" : "from: t > 1");
+            snprintf(text, sizeof text,
+                     "fbd: 1\nbodies: {b: {mass: 1, %s}}\nsimulate: {until: 2, tolerance: 1e-12}\n", body);
+            struct trial trial = run_of(text);
+            check_close(&checks, "x", trial_get(&trial, scenes[i].x), ends ? x + v : 0.1 * cos(w), 1e-8);
+            check_close(&checks, "work", fbd_result_work(trial.result, "b", "p"),
+                        ends ? 0.5 - V : V - 50 * pow(0.1 * cos(w), 2), 1e-8);
+            check_energy(&checks, &trial);
+            trial_close(&trial);
+        }
+    checks_end(&checks);
+}
+
+/* 2 N on 1 kg for the first second, or for the second one. */
+static void a_load_along_a_line_begins_and_ends(void **unused)
+{
+    struct checks checks = {0};
+    (void)unused;
+    for (int ends = 0; ends < 2; ends++) {
+        char text[text_room];
+        snprintf(text, sizeof text,
+                 "fbd: 1\nbodies: {b: {mass: 1, shape: rod, length: 1, motion: planar, forces: [distributed: "
+                 "{from: "
+                 "left, to: right, value: 2 N/m, angle: 90 deg, %s: t > 1 s}]}}\nsimulate: {until: 2}\n",
+                 ends ? "until" : "since");
+        struct trial trial = run_of(text);
+        check_close(&checks, "y", trial_get(&trial, "b.y"), ends ? 3 : 1, same);
+        check_close(&checks, "vy", trial_get(&trial, "b.vy"), 2, same);
+        check_energy(&checks, &trial);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -124,6 +181,8 @@ int main(void)
         cmocka_unit_test(a_coupling_begins_at_the_start),
         cmocka_unit_test(a_force_ends_at_a_landing),
         cmocka_unit_test(a_power_that_has_ended_divides_by_nothing),
+        cmocka_unit_test(a_potential_begins_and_ends),
+        cmocka_unit_test(a_load_along_a_line_begins_and_ends),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
