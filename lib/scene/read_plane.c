@@ -30,7 +30,7 @@ static bool read_plane(struct reader *reader, const struct node *on, struct cons
 }
 
 /* Several points on one plane would share the friction of a body that sticks in an indeterminate way. */
-static bool is_only(struct reader *reader, const struct constraint *constraint)
+__attribute__((unused)) static bool is_only(struct reader *reader, const struct constraint *constraint)
 {
     const struct scene *scene = reader->scene;
     for (const struct constraint *other = scene->constraints; other < constraint; other++)
@@ -73,6 +73,6 @@ bool plane_read(struct reader *reader, const struct coupling_keys *keys, struct 
     if (!keys->mu_k.expr)
         return refuse(reader, constraint->at, "missing-key", "`plane_friction` needs a coefficient",
                       "add `kinetic: 0.3`, and `static` if that is another one");
-    return read_plane(reader, keys->on, constraint) && is_only(reader, constraint) &&
+    return read_plane(reader, keys->on, constraint) &&
            has_normal(reader, constraint);
 }
