@@ -30,10 +30,10 @@ double friction_coefficient(const struct fbd_model *model, int pair, const struc
     double d_mu = 0, d_wrap, value = along ? formula_along(mu, at, along, &d_mu) : formula_value(mu, at);
     if (variation) *variation = d_mu;
     if (coupling >= 0 && model->tree->couplings[coupling].kind == constraint_plane) {
-        const struct formula *normal = &model->tree->couplings[coupling].normal;
-        double d_N = 0, N = along ? formula_along(normal, at, along, &d_N) : formula_value(normal, at);
-        if (variation) *variation = d_mu * N + value * d_N;
-        return value * N;
+        const struct coupling *plane = &model->tree->couplings[coupling];
+        double d_N = 0, N = along ? formula_along(&plane->normal, at, along, &d_N) : formula_value(&plane->normal, at);
+        if (variation) *variation = plane->share * (d_mu * N + value * d_N);
+        return plane->share * value * N;
     }
     const struct constraint_form *form =
         coupling < 0 ? NULL : &constraint_forms[model->tree->couplings[coupling].kind];

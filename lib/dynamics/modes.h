@@ -16,6 +16,7 @@
 struct decided {
     bool *branches;
     bool *slips, *pulls;
+    bool *aims; /* of points on planes: the direction, too */
     bool later; /* the state is one slightly later than the settled one, see tree_settle_holds */
 };
 
@@ -28,16 +29,6 @@ bool modes_settle(struct fbd_state *state, const struct decided *decided);
  * (tree_holds.c). False when that has changed state->slip; the cause of a failure is in state->holds. Sets
  * `jointly` to whether there are any to be decided, or indeterminate reactions. */
 bool tree_settle_holds(struct fbd_state *state, const struct decided *decided, bool *jointly);
-
-struct arena;
-struct rest_margin;
-
-/* Find the distance to the limits of a redundant load, right after force_balance_along with the rates of
- * change `flow`; `guides` as in rest_find_margin. False when no load is redundant, or memory is out
- * (arena->failed). */
-bool tree_find_margin(struct fbd_state *state, const struct instant *at, bool guides,
-                      const struct direction *flow, const double *slots, const double *slots_along,
-                      struct arena *arena, struct rest_margin *margin);
 
 /* A constraint has reached the limit of a redundant load: change its mode and those that reach theirs with
  * it, in state->slip, and mark them decided. False when its load is not redundant. */

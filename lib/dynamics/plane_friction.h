@@ -65,6 +65,12 @@ struct plane_speed {
 };
 struct plane_speed plane_speed(const struct fbd_model *model, const struct tree_work *work, int index);
 
+/* Are both couplings points of one body on one plane? */
+bool planes_are_one(const struct tree *tree, int one, int other);
+
+/* Let a point begin to slip with a velocity along both rows. */
+void plane_set_out(struct fbd_state *state, int pair, struct vec along);
+
 /* Direct e along that velocity. */
 void plane_aim(const struct fbd_model *model, struct tree_work *work, int index);
 

@@ -207,6 +207,12 @@ static void set_radii(struct at_rest *rest)
         rest->radius[i] = friction_at(rest->state->model, rest->pair[i], &rest->at, rest->state->slots).limit;
 }
 
+void plane_set_out(struct fbd_state *state, int pair, struct vec along)
+{
+    struct vec *e = &state->tree->couplings[mode_of(state, pair)->coupling].e;
+    if (vec_norm(along) > 0) *e = vec_turn(*e, vec_scale(1 / vec_norm(along), along));
+}
+
 /* Set the mode and direction of point i; true when the mode stays. */
 static bool set_mode(struct at_rest *rest, int i, const struct decided *decided)
 {
@@ -214,10 +220,9 @@ static bool set_mode(struct at_rest *rest, int i, const struct decided *decided)
     const int pair = rest->pair[i], before = state->slip[pair];
     const struct vec a = by_others(rest, i);
     const struct vec way = vec_norm(rest->f[i]) > 0 ? vec_scale(-1, rest->f[i]) : a;
-    struct vec *e = &state->tree->couplings[mode_of(state, pair)->coupling].e;
     const bool slips = rest->slips[i] || (decided && decided->slips[pair]);
     state->slip[pair] = slips ? slip_plus : stick;
-    if (slips && vec_norm(way) > 0) *e = vec_turn(*e, vec_scale(1 / vec_norm(way), way));
+    if (slips) plane_set_out(state, pair, way);
     return state->slip[pair] == before;
 }
 
@@ -245,6 +250,7 @@ bool planes_settle(struct fbd_state *state, const struct decided *decided)
     if (!rest.pair) state->holds.found = holds_no_memory;
     for (int pair = 0; rest.pair && pair < (int)state->model->plan.mode_count; pair++) {
         if (mode_of(state, pair)->kind != mode_plane) continue;
+        if (decided && decided->aims[pair]) continue;
         if (!mode_has_ended(state, pair) && !moves(state, decided, pair)) {
             rest.pair[rest.count++] = pair;
             continue;

@@ -158,8 +158,7 @@ static bool limits_hold(const struct rest_system *system, double *values)
     return true;
 }
 
-/* Move by w times `size` in the null space. */
-static bool move(struct rest_system *system, const double *w, double size)
+bool rest_move(struct rest_system *system, const double *w, double size)
 {
     double *step = ARENA_ARRAY(system->arena, system->m + 1, double);
     if (!step) return false;
@@ -176,7 +175,7 @@ bool rest_vary(struct rest_system *system, size_t k, double size)
     double *w = ARENA_ARRAY(system->arena, system->basis_count + 1, double);
     if (!w) return false;
     w[k] = 1;
-    return move(system, w, size);
+    return rest_move(system, w, size);
 }
 
 /* The scale of w: the limits may be exceeded by far more than the loads, as with the tension of a belt. */
@@ -204,31 +203,48 @@ static bool keep_part_limits(struct rest_system *system, const double *G, const 
     return true;
 }
 
-/* Keep the least reactions if they are within the limits, else find the least ones that are, first exactly,
- * then, if the feasible set is nearly empty, within half of the tolerance. */
-static bool keep_limits(struct rest_system *system)
+/* Find the least reactions within the limits, from the present ones: a change w times `size`. */
+static bool find_within(struct rest_system *system, double *w, double *size)
 {
     struct arena *arena = system->arena;
     size_t count = system->bound_count, d = system->basis_count;
-    double *values = ARENA_ARRAY(arena, count + 1, double);
-    double *G = ARENA_ARRAY(arena, count * d + 1, double), *w = ARENA_ARRAY(arena, d + 1, double);
-    if (!values || !G || !w) return false;
+    double *values = ARENA_ARRAY(arena, count + 1, double), *after = ARENA_ARRAY(arena, count + 1, double);
+    double *G = ARENA_ARRAY(arena, count * d + 1, double);
+    if (!values || !after || !G) return false;
+    memset(w, 0, d * sizeof *w);
+    *size = 0;
     system->within_limits = limits_hold(system, values);
     if (system->within_limits || d == 0) return true;
     if (!rest_bound_slopes(system, G)) return false;
-    double size = size_of_way(system, values);
+    *size = size_of_way(system, values);
     for (int pass = 0; pass < 2 && !system->within_limits; pass++) {
         double slack = pass == 0 ? 0 : rest_limit_slack(system) / 2;
         memset(w, 0, d * sizeof *w);
         for (int which = 0; which < system->parts; which++)
-            if (!keep_part_limits(system, G, values, which, size, slack, w)) return false;
-        if (!move(system, w, size)) return false;
-        double *after = ARENA_ARRAY(arena, count + 1, double);
-        if (!after) return false;
+            if (!keep_part_limits(system, G, values, which, *size, slack, w)) return false;
+        if (!rest_move(system, w, *size)) return false;
         system->within_limits = limits_hold(system, after);
-        if (!system->within_limits && !move(system, w, -size)) return false;
+        if (!system->within_limits && !rest_move(system, w, -*size)) return false;
     }
     return true;
+}
+
+/* Keep the least reactions if they are within the limits, else find the least ones that are, first exactly,
+ * then, if the feasible set is nearly empty, within half of the tolerance; with more limits of points on planes until their
+ * forces are within their discs. */
+static bool keep_limits(struct rest_system *system)
+{
+    enum { most_cuts = 60 };
+    double *w = ARENA_ARRAY(system->arena, system->basis_count + 1, double), size;
+    const bool planes = system->state->model->tree && system->state->model->tree->plane_count > 0;
+    if (!w) return false;
+    for (int cut = 0;; cut++) {
+        if (!find_within(system, w, &size)) return false;
+        if (!planes || !system->within_limits || cut == most_cuts ||
+            !rest_cut_points(system, rest_limit_slack(system)))
+            return !system->arena->failed;
+        if (!rest_move(system, w, -size)) return false;
+    }
 }
 
 /* ---- solution */

@@ -30,14 +30,22 @@
 #include "numeric/qr.h"
 #include "numeric/tolerances.h"
 
+/* A limit of the friction of points on a plane (plane_friction.h), for velocities u_i of them: sum c_i |u_i| - f_i . u_i. */
+struct rest_cut {
+    int count;
+    int *coupling; /* count */
+    struct vec *u; /* count: along both rows of the coupling; the sum of their magnitudes is 1 */
+};
+
 /* A limit in force, as a function h >= 0 of the forces: of a normal force, of the tension of a rope, of the loaded side of a
- * guide that slips; of friction mu N - F and mu N + F. */
+ * guide that slips; of friction mu N - F and mu N + F; of friction on a plane. */
 struct rest_bound {
-    enum { bound_normal, bound_rope, bound_guide, bound_friction } kind;
+    enum { bound_normal, bound_rope, bound_guide, bound_friction, bound_plane } kind;
     int pair, contact; /* the mode, -1 for the normal force of a slide; index into plan.contacts */
     double mu,
         unit; /* the larger coefficient; the change of h for a unit margin: a force, or a moment at the length */
     int side; /* of F: -1 or 1 */
+    struct rest_cut cut;
 };
 
 /* The system and its solution. */
@@ -63,7 +71,7 @@ struct rest_system {
     double *r, *R;            /* reactions; m x reactions */
     double force, length;
     struct rest_bound *bounds;
-    size_t bound_count;
+    size_t bound_count, bound_room;
     struct qr qr;       /* of E */
     double *least;      /* m: from the base to the least reactions, limits or not */
     double *basis;      /* m x indeterminacy: lambda for a unit of r */
@@ -141,6 +149,9 @@ bool rest_choose_sides(struct rest_system *system);
 /* Restore the forces that rest_open found. */
 void rest_restore(struct rest_system *system);
 
+/* Change the reactions by `size` times w in the basis. False when memory is out. */
+bool rest_move(struct rest_system *system, const double *w, double size);
+
 /* Change the reactions by `size` along basis vector k, which leaves the equations satisfied, without regard
  * to limits. Their slots are in system->forces. False when memory is out. */
 bool rest_vary(struct rest_system *system, size_t k, double size);
@@ -151,6 +162,7 @@ struct rest_margin {
     double value, rate;  /* HUGE_VAL if no limit is involved */
     bool *of, *contacts; /* plan.mode_count, plan.contact_count: those involved, in the arena */
     int *gives;          /* plan.mode_count: the mode after slipping or opening, 0 for an unchanged one */
+    struct vec *aims;    /* plan.mode_count: of points on a plane that slip, the velocity along both rows */
 };
 
 /* The rounding of a margin: a load within this of its limits does not break away. */
@@ -159,10 +171,41 @@ static inline double rest_margin_slack(const struct rest_margin *margin)
     return negligible_sum * margin->size;
 }
 
-/* Find the margin at the base, right after the rates of change of its slots and of the multipliers along
- * `flow`. With `guides` the limits of one-sided slides are included; without, these may pull. False when
+/* The limits that a margin includes: all; without friction on planes, which is decided after the others (plane_friction.h); or
+ * without the limits of one-sided slides either, which may pull. */
+enum rest_scope { rest_all, rest_without_planes, rest_without_guides };
+
+/* Find the margin at the base, right after the rates of change of its slots and of the multipliers along `flow`. False when
  * memory is out. */
-bool rest_find_margin(struct rest_system *system, bool guides, const double *slots_along,
+bool rest_find_margin(struct rest_system *system, enum rest_scope scope, const double *slots_along,
                       const double *lambda_along, const struct direction *flow, struct rest_margin *margin);
+
+/* The same of a state, right after force_balance_along with the rates of
+ * change `flow`. False when no load is redundant, or memory is out
+ * (arena->failed). */
+bool tree_find_margin(struct fbd_state *state, const struct instant *at, enum rest_scope scope,
+                      const struct direction *flow, const double *slots, const double *slots_along,
+                      struct arena *arena, struct rest_margin *margin);
+
+/* ---- friction on planes (rest_planes.c) */
+
+/* The value of a limit [N] at the forces of the rows, those of `lambda` or the present ones; `loads`: with the limits of the
+ * points. Its rate of change along `flow`, with those of the rows. */
+double rest_cut_value(const struct rest_system *system, const struct rest_cut *cut, const double *lambda,
+                      bool loads);
+double rest_cut_along(const struct rest_system *system, const struct rest_cut *cut,
+                      const double *lambda_along, const struct direction *flow);
+
+/* Add the velocities of the points against u, times a multiplier, for those that slip; and mark all of its points. */
+void rest_cut_gives(const struct rest_system *system, const struct rest_cut *cut, double multiplier,
+                    int *gives, struct vec *aims);
+void rest_cut_mark(const struct rest_system *system, const struct rest_cut *cut, bool *of);
+
+/* Add limits of the bodies that stick at several points, or at points that share forces with others, where these are below
+ * `level` [N] at the present forces. False when none is added, or memory is out. */
+bool rest_cut_planes(struct rest_system *system, double level);
+
+/* Add limits of single points whose forces exceed them by more than `slack` [N]. */
+bool rest_cut_points(struct rest_system *system, double slack);
 
 #endif

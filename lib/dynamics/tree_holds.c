@@ -198,9 +198,9 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
         flow = tree_evaluate(state);
     struct arena arena = state_lend(state);
     struct rest_margin margin = {0};
-    bool shared = tree_find_margin(state, &at, true, &flow, slots, slots_along, &arena, &margin);
+    bool shared = tree_find_margin(state, &at, rest_without_planes, &flow, slots, slots_along, &arena, &margin);
     if (shared && margin.value < 0) /* the loss of a slide's surface is detected elsewhere */
-        shared = tree_find_margin(state, &at, false, &flow, slots, slots_along, &arena, &margin);
+        shared = tree_find_margin(state, &at, rest_without_guides, &flow, slots, slots_along, &arena, &margin);
     int which = pulled_against(state, decided, forced), next = 0;
     if (which >= 0 || (!solved && tree_is_locked(state))) found = differs;
     for (int pair = 0; found != differs && pair < (int)state->model->plan.mode_count; pair++) {
@@ -422,10 +422,10 @@ static bool look_later(struct fbd_state *state, const struct decided *decided, i
     const double T = moment_later(state);
     if (T == 0) return true;
     struct fbd_state *later = state_new(state->model);
-    bool *none = calloc(2 * count + (size_t)state->model->plan.branches + 1, sizeof *none);
+    bool *none = calloc(3 * count + (size_t)state->model->plan.branches + 1, sizeof *none);
     bool agreed = true;
     if (later && none) {
-        const struct decided nothing = {none + 2 * count, none, none + count, true};
+        const struct decided nothing = {none + 3 * count, none, none + count, none + 2 * count, true};
         state_copy(later, state);
         for (size_t i = 0; i < n; i++) later->y[n + i] = T * state->a[i];
         if (modes_settle(later, &nothing) && take_later_modes(state, later, decided, forced))

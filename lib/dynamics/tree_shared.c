@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "dynamics/plane_friction.h"
 #include "dynamics/tree_gather.h"
 #include "dynamics/user_states.h"
 #include "numeric/tolerances.h"
@@ -41,13 +42,13 @@ bool tree_choose_sides(struct fbd_state *state, const double *slots)
     return changed;
 }
 
-bool tree_find_margin(struct fbd_state *state, const struct instant *at, bool guides,
+bool tree_find_margin(struct fbd_state *state, const struct instant *at, enum rest_scope scope,
                       const struct direction *flow, const double *slots, const double *slots_along,
                       struct arena *arena, struct rest_margin *margin)
 {
     struct rest_system system;
     bool found = rest_open(&system, state, at, slots, flow->dy + state->model->plan.n, arena) &&
-                 rest_find_margin(&system, guides, slots_along, at->tree->z, flow, margin);
+                 rest_find_margin(&system, scope, slots_along, at->tree->z, flow, margin);
     if (system.base.F) rest_restore(&system);
     rest_free(&system);
     if (arena->failed) state->holds.found = holds_no_memory;
@@ -63,6 +64,8 @@ static void give(struct fbd_state *state, const struct rest_margin *margin, int 
             state->pull[pair] = -state->pull[pair];
         else
             forced[pair] = state->slip[pair] = margin->gives[pair];
+        if (state->model->plan.modes[pair].kind == mode_plane)
+            plane_set_out(state, (int)pair, margin->aims[pair]);
     }
 }
 
@@ -83,11 +86,12 @@ bool tree_give_shared(struct fbd_state *state, int pair, struct decided *decided
     struct direction flow = tree_evaluate(state);
     struct instant at = state_instant(state);
     bool gives =
-        tree_find_margin(state, &at, true, &flow, scratch.slots, scratch.slots_along, &arena, &margin) &&
+        tree_find_margin(state, &at, rest_all, &flow, scratch.slots, scratch.slots_along, &arena, &margin) &&
         margin.of[pair];
     for (size_t i = 0; gives && i < state->model->plan.mode_count; i++) {
         bool turns = mode_is_friction(&state->model->plan.modes[i]) && state->slip[i] != stick;
         (turns ? decided->pulls : decided->slips)[i] |= margin.gives[i] != 0;
+        decided->aims[i] |= margin.gives[i] != 0;
     }
     if (gives) {
         give(state, &margin, state->slip_forced);

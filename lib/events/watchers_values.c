@@ -276,7 +276,7 @@ static void set_flow(struct view *view, enum needs needs)
     if (state->model->names_reactions) set_reactions(view);
     if (!tree_joins(state->model->tree)) return;
     view->arena = state_lend(state);
-    view->shared = tree_find_margin(state, &view->at, true, &view->flow, slots, slots_along, &view->arena,
+    view->shared = tree_find_margin(state, &view->at, rest_all, &view->flow, slots, slots_along, &view->arena,
                                     &view->margin);
 }
 

@@ -51,19 +51,35 @@ static void drop_rounding(struct run *run)
         if (fabs(run->state->y[i]) <= evaluation_rounding * most[i]) run->state->y[i] = 0;
 }
 
-/* Has the velocity on a plane turned by a right angle from the direction in which it is watched? That is renewed
- * then. A remaining velocity within the error of the velocities of which it is the difference is a stop. */
-static bool only_turns(struct run *run, int pair)
+/* Is the velocity on a plane within the error of the velocities of which it is the difference? The links are in place. */
+static bool is_slow(const struct run *run, int pair)
 {
     const double tolerances = 100;
-    const int index = run->model->plan.modes[pair].coupling;
+    const struct plane_speed speed =
+        plane_speed(run->model, run->state->tree, run->model->plan.modes[pair].coupling);
+    return speed.slip <= tolerances * run->options.tolerance * fmax(speed.size, run->watchers.fast[pair]);
+}
+
+/* Has the velocity on a plane turned by a right angle from the direction in which it is watched? That is renewed
+ * then. A slow one is a stop. */
+static bool only_turns(struct run *run, int pair)
+{
     const struct instant at = state_instant(run->state);
     tree_move(run->model, &at);
-    const struct plane_speed speed = plane_speed(run->model, run->state->tree, index);
-    const double size = fmax(speed.size, run->watchers.fast[pair]);
-    if (speed.slip <= tolerances * run->options.tolerance * size) return false;
-    plane_aim(run->model, run->state->tree, index);
+    if (is_slow(run, pair)) return false;
+    plane_aim(run->model, run->state->tree, run->model->plan.modes[pair].coupling);
     return true;
+}
+
+/* The other points of its body on the same plane that are at rest within that error stop with it. */
+static void stop_with(struct run *run, int pair)
+{
+    const struct tree *tree = run->model->tree;
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const int other = tree->couplings[i].pair;
+        if (!planes_are_one(tree, i, run->model->plan.modes[pair].coupling)) continue;
+        if (run->state->slip[other] != stick && is_slow(run, other)) run->state->slip[other] = stick;
+    }
 }
 
 /* Set the relative velocity to exactly zero, as the event implies; settling decides the modes. */
@@ -75,6 +91,7 @@ static void stop_slipping(struct run *run, int pair)
     if (mode->kind == mode_plane && only_turns(run, pair)) return;
     if (mode->coupling >= 0) {
         run->state->slip[pair] = stick;
+        if (mode->kind == mode_plane) stop_with(run, pair);
         state_project_velocity(run->state, false);
         drop_rounding(run);
         return;
@@ -447,7 +464,7 @@ static void apply_once(struct run *run, const bool *timed, const bool *moving)
     const bool *crossed[] = {timed, moving};
     const bool crossing =
         any_switch(&run->watchers.timed, timed) || any_switch(&run->watchers.moving, moving);
-    memset(run->decided.branches, 0, ((size_t)plan->branches + 2 * plan->mode_count) * sizeof(bool));
+    memset(run->decided.branches, 0, ((size_t)plan->branches + 3 * plan->mode_count) * sizeof(bool));
     contacts_begin_events(run);
     rest_held(run);
     size_t first = run->log.count;

@@ -99,7 +99,7 @@ static bool make_run(struct run *run, const struct state_start *begin)
     run->work.kept = ARENA_ARRAY(memory, 2 * size, double);
     run->work.crossed = ARENA_ARRAY(memory, run->search.moving.count, bool);
     run->recent.anchor = ARENA_ARRAY(memory, 2 * size, double);
-    run->decided.branches = ARENA_ARRAY(memory, (size_t)plan->branches + 2 * plan->mode_count, bool);
+    run->decided.branches = ARENA_ARRAY(memory, (size_t)plan->branches + 3 * plan->mode_count, bool);
     if (!contacts_work_init(&run->contacts, run->model, memory) || !zeno_switch_init(run)) return false;
     run->watchers.asleep = run->contacts.asleep;
     run->watchers.deep = run->contacts.deep;
@@ -109,6 +109,7 @@ static bool make_run(struct run *run, const struct state_start *begin)
     if (memory->failed) return false;
     run->decided.slips = run->decided.branches + plan->branches;
     run->decided.pulls = run->decided.slips + plan->mode_count;
+    run->decided.aims = run->decided.pulls + plan->mode_count;
     const struct tree *tree = run->model->tree;
     bool meets = tree->meeting_count > 0, couples = tree->coupling_count > 0;
     run->lazy = !meets && !asks_forces(run);

@@ -51,6 +51,10 @@ bool ratios_check(struct builder *builder);
 /* Reject welds of particles, but at their first end, and welds between bodies that are one already (weld_check.c). */
 void welds_check(struct builder *builder);
 
+/* The part of the force of a body on a plane that is at a point of it, by equilibrium; notes an error if the body tips
+ * (plane_check.c). */
+double plane_share(struct builder *builder, const struct constraint *source);
+
 /* Reject more static than kinetic friction on planes that are linked (plane_check.c). */
 void planes_check(struct builder *builder);
 

@@ -38,7 +38,8 @@ struct coupling {
     double length;
     int wound[2]; /* rope: enum wound_side at the start and end of the piece, on a disc that it is wound on */
     double spare[2];              /* and its wound length at the start, or HUGE_VAL */
-    struct formula normal;        /* plane friction: the force on the plane, at this point; */
+    struct formula normal;        /* plane friction: the force on the plane, */
+    double share;                 /* the part of it at this point; */
     double soft;                  /* a speed per friction, see dynamics/plane_friction.h */
     bool reels;                   /* rope: its length is a function of time, `length` at t = 0 */
     struct formula reel;          /* that function */

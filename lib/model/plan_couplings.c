@@ -117,6 +117,7 @@ static void plan_plane(struct builder *builder, struct coupling *coupling)
     coupling->normal = source->normal.expr
                            ? builder_formula(builder, &source->normal, body, coupling->load)
                            : formula_constant(model->bodies[body].inertia.mass * model->scene->pressing);
+    coupling->share = plane_share(builder, source);
     coupling->soft = soft_of(model, body);
 }
 

@@ -107,7 +107,7 @@ static void rise(struct active_set *set, const struct half_spaces *spaces, struc
 }
 
 bool least_distance_rise(size_t rows, size_t size, const double *G, const double *h, double most,
-                         double *level, double *u)
+                         double *level, double *u, double *x)
 {
     struct inequalities all = {size, G, h, most};
     const struct half_spaces spaces = {rows, &all, excess, add_normal};
@@ -117,6 +117,7 @@ bool least_distance_rise(size_t rows, size_t size, const double *G, const double
     bool made = active_set_new(&set, size, rows);
     if (made) rise(&set, &spaces, &all, most, u);
     *level = all.level;
+    if (made && x) memcpy(x, set.x, size * sizeof *x);
     active_set_free(&set);
     return made;
 }

@@ -22,8 +22,9 @@ enum least_distance least_distance(size_t rows, size_t size, const double *G, co
 
 /* The greatest level, not above `most`, for which there is an x with G x >= h + level; and the multipliers of the rows: their
  * sum is one, and that of the rows times them is zero; all zero where the level is `most`. The level rises from that of
- * x = 0, with x the nearest to the origin, until a limit cannot be satisfied. False when memory is out. */
+ * x = 0, with x the nearest to the origin, until a limit cannot be satisfied. x takes `size`, or is NULL. False when memory is
+ * out. */
 bool least_distance_rise(size_t rows, size_t size, const double *G, const double *h, double most,
-                         double *level, double *u);
+                         double *level, double *u, double *x);
 
 #endif

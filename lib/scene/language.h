@@ -59,6 +59,7 @@ enum entries {
     each_number,  /* constants */
     each_word,    /* names */
     each_pair,    /* [x, y] */
+    each_point,   /* [x, y], or names */
     each_polygon, /* [[x, y], ...] */
 };
 

@@ -202,12 +202,15 @@ static const struct field plane_fields[] = {
                "the body whose upper face is the plane, as a turntable or a belt; default the ground"),
     FIELD_NODE(COUPLING(at), "at", field_any, 0, NULL,
                "the point of the body that it rests on, a name or [x, y]; default G"),
+    FIELD_ENTRIES(COUPLING(points), "points", field_list, 0, each_point, NULL,
+                  "two or three points that it rests on, which share the weight by equilibrium"),
     FIELD_VALUE(COUPLING(mu_s), "static", a_number, not_negative | stored,
                 "coefficient of static friction; default that of kinetic friction"),
     FIELD_VALUE(COUPLING(mu_k), "kinetic", a_number, not_negative | stored,
                 "coefficient of kinetic friction; default that of static friction"),
     FIELD_VALUE(COUPLING(normal), "normal", a_force, not_negative | stored,
-                "force of the body on the plane; default its weight m g, with `plane: horizontal`"),
+                "force of the body on the plane, at its center of mass where it has `points`; default its "
+                "weight m g, with `plane: horizontal`"),
 };
 static const struct group plane_group =
     CONSTRAINT_GROUP("`plane_friction`", plane_fields,

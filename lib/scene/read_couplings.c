@@ -179,10 +179,20 @@ static bool read_list(struct reader *reader, const struct node *list, bool conta
     return fine;
 }
 
+/* The points of a body on a plane have its name with their numbers. Returns the next constraint. */
+static size_t name_points(struct reader *reader, size_t index, const char *name)
+{
+    struct constraint *first = &reader->scene->constraints[index];
+    for (int k = 0; k < first->points; k++)
+        first[k].name = arena_printf(reader->arena, "%s.%d", name, k + 1);
+    return index + (size_t)first->points;
+}
+
 /* The name of a constraint; that of its rolling resistance, or friction, follows from it. Returns the next constraint. */
 static size_t name_constraint(struct reader *reader, size_t index, const char *name)
 {
     struct scene *scene = reader->scene;
+    if (scene->constraints[index].points > 1) return name_points(reader, index, name);
     scene->constraints[index++].name = name;
     if (index == scene->constraint_count || scene->constraints[index].kind != constraint_resistance)
         return index;
@@ -192,6 +202,20 @@ static size_t name_constraint(struct reader *reader, size_t index, const char *n
     return index + 1;
 }
 
+/* The number of points in a list, beyond the first of each entry. */
+static size_t count_points(const struct node *couplings)
+{
+    size_t count = 0;
+    for (size_t i = 0; couplings && i < couplings->count; i++) {
+        const struct node *entry = couplings->items[i];
+        const struct node *keys =
+            entry->kind == node_map && entry->count == 1 ? entry->pairs[0].value : NULL;
+        const struct pair *points = keys && keys->kind == node_map ? node_find(keys, "points") : NULL;
+        if (points && points->value->kind == node_list) count += points->value->count;
+    }
+    return count;
+}
+
 bool couplings_read(struct reader *reader, const struct node *couplings, const struct node *contacts)
 {
     struct scene *scene = reader->scene;
@@ -199,7 +223,7 @@ bool couplings_read(struct reader *reader, const struct node *couplings, const s
     size_t stops = stops_count(reader), load = 0, constraint = 0;
     count += stops;
     scene->force_couplings = ARENA_ARRAY(reader->arena, count, struct force_coupling);
-    scene->constraints = ARENA_ARRAY(reader->arena, 2 * count, struct constraint);
+    scene->constraints = ARENA_ARRAY(reader->arena, 2 * count + count_points(couplings), struct constraint);
     struct coupling_name *names = ARENA_ARRAY(reader->arena, count, struct coupling_name);
     if (!scene->force_couplings || !scene->constraints || !names) return false;
     bool fine = read_list(reader, couplings, false, names);

@@ -29,16 +29,20 @@ static bool read_plane(struct reader *reader, const struct node *on, struct cons
                   "name another body, or leave `on` out for the ground");
 }
 
-/* Several points on one plane would share the friction of a body that sticks in an indeterminate way. */
-static bool is_only(struct reader *reader, const struct constraint *constraint)
+/* The weight of the body is on one point, or shared by the points of one entry. Bodies lie on each other in one order. */
+static bool fits_others(struct reader *reader, const struct constraint *constraint)
 {
     const struct scene *scene = reader->scene;
-    for (const struct constraint *other = scene->constraints; other < constraint; other++)
-        if (other->kind == constraint_plane && other->body[0] == constraint->body[0] &&
-            other->body[1] == constraint->body[1])
-            return refuse(reader, constraint->at, "not-here",
-                          "the body lies on this plane with another point already",
-                          "one point, with the whole normal force");
+    for (const struct constraint *other = scene->constraints; other < constraint; other++) {
+        if (other->kind != constraint_plane) continue;
+        if (other->body[0] == constraint->body[0] && !(other->normal.expr && constraint->normal.expr))
+            return refuse(reader, constraint->at, "missing-key",
+                          "the body lies on several points, and the part of its weight on each is open",
+                          "write `normal` for each of them, or one entry with `points`");
+        if (other->body[0] == constraint->body[1] && other->body[1] == constraint->body[0])
+            return refuse(reader, constraint->at, "not-here", "the other body lies on this one already",
+                          "let the entries of `plane_friction` between two bodies name the same `on`");
+    }
     return true;
 }
 
@@ -55,6 +59,30 @@ static bool has_normal(struct reader *reader, const struct constraint *constrain
                   "write `normal`, an expression of t");
 }
 
+/* The points of a body that shares its weight among them. Each is a constraint of its own. */
+static bool read_points(struct reader *reader, const struct node *points, struct constraint *constraint)
+{
+    enum { least = 2, most = 3 };
+    struct scene *scene = reader->scene;
+    if (scene->bodies[constraint->body[0]].motion.kind == motion_particle)
+        return refuse(reader, points->at, "not-here", "a particle has no points",
+                      "leave `points` out, or let the body be `planar`");
+    if (points->count < least || points->count > most)
+        return refuse(reader, points->at, "not-here",
+                      "equilibrium shares the weight among two or three points",
+                      points->count < least ? "write the only point as `at`"
+                                            : "write an entry with `at` and `normal` for each point");
+    constraint->points = (int)points->count;
+    for (size_t k = 0; k < points->count; k++) {
+        struct constraint *own = constraint + k;
+        *own = *constraint;
+        own->place = (int)k;
+        if (!body_point_read(reader, own->body[0], points->items[k], "points", &own->point[0])) return false;
+    }
+    scene->constraint_count += points->count - 1;
+    return true;
+}
+
 bool plane_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
 {
     constraint->end_count = 2;
@@ -63,16 +91,20 @@ bool plane_read(struct reader *reader, const struct coupling_keys *keys, struct 
     constraint->mu_s = keys->mu_s;
     constraint->mu_k = keys->mu_k;
     constraint->normal = keys->normal;
-    constraint->share = 1;
+    constraint->points = 1;
     if (!body_name_read(reader, keys->body, "body", &constraint->body[0])) return false;
     if (constraint->body[0] == ground_body)
         return refuse(reader, constraint->at, "not-here", "the ground cannot lie on the plane",
                       "name a body, and the ground as `on`");
-    if (keys->at && !body_point_read(reader, constraint->body[0], keys->at, "at", &constraint->point[0]))
-        return false;
     if (!keys->mu_k.expr)
         return refuse(reader, constraint->at, "missing-key", "`plane_friction` needs a coefficient",
                       "add `kinetic: 0.3`, and `static` if that is another one");
-    return read_plane(reader, keys->on, constraint) && is_only(reader, constraint) &&
-           has_normal(reader, constraint);
+    if (keys->at && keys->points)
+        return refuse(reader, keys->points->at, "conflicting-keys", "`at` and `points` exclude each other",
+                      "keep one of them");
+    if (!read_plane(reader, keys->on, constraint) || !fits_others(reader, constraint) ||
+        !has_normal(reader, constraint))
+        return false;
+    if (keys->points) return read_points(reader, keys->points, constraint);
+    return !keys->at || body_point_read(reader, constraint->body[0], keys->at, "at", &constraint->point[0]);
 }

@@ -114,6 +114,9 @@ static void add_entry(struct text *text, const struct field *field, enum entries
     case each_number: text_add(text, "{\"$ref\": \"#/definitions/number\"}"); break;
     case each_word: text_add(text, word_schema); break;
     case each_pair: text_add(text, "{\"$ref\": \"#/definitions/pair\"}"); break;
+    case each_point:
+        text_printf(text, "{\"anyOf\": [%s, {\"$ref\": \"#/definitions/pair\"}]}", word_schema);
+        break;
     case each_polygon: text_add(text, polygon_schema); break;
     case one_value: text_add(text, "true"); break;
     }

@@ -74,6 +74,7 @@ static const struct {
     {"force_applied", "value+fx value+fy toward+fx toward+fy toward+angle toward+frame"},
     {"coupling_actuator", "moment+force moment+along"},
     {"coupling_gear", "efficiency+from"},
+    {"coupling_plane_friction", "at+points"},
     {"force_thrust", "exhaust+velocity velocity+angle velocity+frame"},
     {"force_friction", "coefficient+static coefficient+kinetic"},
     {"moment_friction", "coefficient+static coefficient+kinetic bearing+static bearing+kinetic "

@@ -87,10 +87,10 @@ static void a_level_rises_to_the_middle_between_opposite_limits(void **unused)
     (void)unused;
     static const double G[] = {1, 0, -1, 0, 0, 1}, h[] = {1, -4, 0}; /* x >= 1 + s, x <= 4 - s */
     double u[3], level;
-    assert_true(least_distance_rise(3, 2, G, h, 9, &level, u));
+    assert_true(least_distance_rise(3, 2, G, h, 9, &level, u, NULL));
     assert_true(fabs(level - 1.5) < rounding && fabs(u[0] - 0.5) < rounding && fabs(u[1] - 0.5) < rounding);
     assert_true(u[2] == 0);
-    assert_true(least_distance_rise(3, 2, G, h, 0.5, &level, u));
+    assert_true(least_distance_rise(3, 2, G, h, 0.5, &level, u, NULL));
     assert_true(level == 0.5 && u[0] == 0 && u[1] == 0 && u[2] == 0);
 }
 
@@ -98,7 +98,7 @@ static void a_level_rises_to_the_middle_between_opposite_limits(void **unused)
 static void assert_greatest(int rows, int size, const double *G, const double *h, double most)
 {
     double u[64], x[16], lower[64], level, sum = 0, bound = 0;
-    assert_true(least_distance_rise((size_t)rows, (size_t)size, G, h, most, &level, u));
+    assert_true(least_distance_rise((size_t)rows, (size_t)size, G, h, most, &level, u, NULL));
     for (int i = 0; i < rows; i++) {
         assert_true(u[i] >= 0);
         sum += u[i];
