@@ -34,6 +34,17 @@ static const struct model_body *body_at(const fbd_model *model, size_t index)
     return model && index < model->body_count ? &model->bodies[index] : NULL;
 }
 
+/* The limit of the coordinate of a body on one side: +1 its least value, -1 its largest; NAN without a stop. */
+static double stop_of(const fbd_model *model, int body, int side)
+{
+    for (size_t i = 0; i < model->scene->constraint_count; i++) {
+        const struct constraint *source = &model->scene->constraints[i];
+        if (source->kind == constraint_contact && source->contact.stop == side && source->body[0] == body)
+            return source->contact.limit;
+    }
+    return NAN;
+}
+
 _Static_assert((int)FBD_MOTION_TRACK + 1 == motion_kinds_count, "the view has the joints of the language");
 
 fbd_body fbd_model_body(const fbd_model *model, size_t index)
@@ -46,7 +57,8 @@ fbd_body fbd_model_body(const fbd_model *model, size_t index)
                           .pin = {NAN, NAN},
                           .joint = {NAN, NAN},
                           .along = {NAN, NAN},
-                          .normal = {NAN, NAN}};
+                          .normal = {NAN, NAN},
+                          .stops = {NAN, NAN}};
     const int angle = body->joint->angle;
     fbd_body seen = {.name = body->name,
                      .motion = (fbd_motion_kind)body->kind,
@@ -59,6 +71,7 @@ fbd_body fbd_model_body(const fbd_model *model, size_t index)
                      .along = PAIR(body->e),
                      .normal = PAIR(body->n),
                      .friction = body->friction >= 0,
+                     .stops = {stop_of(model, (int)index, 1), stop_of(model, (int)index, -1)},
                      .inertia = fbd_model_inertia(model, index),
                      .listed = body->source->load_count,
                      .most_forces = diagram_arrows(model, (int)index),

@@ -70,10 +70,15 @@ void figure_hatched_disc(struct panel *pen, struct vec center, double radius);
 void figure_take_lines(const struct figure *figure, struct box *box);
 void figure_take_polygons(const struct figure *figure, struct box *box);
 
-/* A rope or rod beneath the bodies; its arcs over discs, and belts, in front of them. */
+/* A rope or rod beneath the bodies; its anchors on the ground and arcs over discs, and belts, in front of them. */
 void figure_rope(struct figure *figure, size_t index);
-void figure_rope_arcs(struct figure *figure, size_t index);
+void figure_rope_over(struct figure *figure, size_t index);
 void figure_belt(struct figure *figure, size_t index);
+
+/* Arrows of surfaces that run, springs about an axis, stops: in front of the bodies. Extend a box by the places of bodies at
+ * their stops. */
+void figure_surfaces(struct figure *figure);
+void figure_take_stops(const struct figure *figure, struct box *box);
 
 /* The marks that have a name or a letter: ratios, friction of bearings, gravity into a horizontal plane. */
 void figure_marks(struct figure *figure);
@@ -81,10 +86,10 @@ void figure_marks(struct figure *figure);
 /* The entries of the list below the figure: the letters with their values, and the ratios; NULL past the last one. */
 const char *figure_listed(struct figure *figure, size_t index);
 
-/* Draw the springs and dampers, and the couplings and the ground under contacts: beneath the bodies. */
+/* Draw springs, dampers, ropes, rods, and the ground under contacts: beneath the bodies. */
 void figure_links(struct figure *figure);
 
-/* Draw belts, teeth, racks, grooves and actuators: in front of the bodies. */
+/* Draw pins, welds, belts, teeth, racks, grooves and actuators: in front of the bodies. */
 void figure_links_over(struct figure *figure);
 
 /* True if an actuator of this name is drawn between its points, in place of its two forces. */

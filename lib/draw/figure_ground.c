@@ -339,7 +339,7 @@ void figure_groove(struct figure *figure, size_t index)
     const struct vec block = figure_point(figure, pin.body, pin.point);
     if (path.side != 0 && pin.body >= 0 && vec_norm(vec_sub(at, block)) > follower_stem)
         draw_stem(figure->pen, vec_sub(block, at), at, &figure->panels[pin.body]);
-    svg_circle(&figure->pen->under, "hole", at, 1.1);
+    svg_circle(&figure->pen->under, "hole", at, pin_radius);
 }
 
 /* ---- planes seen from above */

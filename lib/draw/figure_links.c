@@ -64,6 +64,9 @@ static void name_spring(struct figure *figure, const fbd_spring *spring, struct 
         labelling_add(&figure->pen->labels, text, label_size, vec_scale(0.5, vec_add(from, to)), side, 2.6);
 }
 
+/* Sine of the slope up to which a line counts as level. */
+static const double level = 0.1;
+
 static void draw_spring(struct figure *figure, size_t index)
 {
     const fbd_spring spring = fbd_view_spring(figure->view, index);
@@ -72,10 +75,10 @@ static void draw_spring(struct figure *figure, size_t index)
     const bool grounded = spring.partner < 0, placed = !isnan(spring.anchor[0]);
     if (placed) {
         to = figure_point(figure, spring.partner, spring.anchor);
-    } else { /* a wall behind the body, beside that of an earlier one */
+    } else { /* a wall above the body, behind it on a level line; beside that of an earlier one */
         const struct vec e = panel_direction(vec_of(figure->panels[spring.body].pose.along));
         from = vec_add(from, vec_scale(index % 2 ? 3 : -3, vec_perp(e)));
-        to = vec_sub(from, vec_scale(wall_distance, e));
+        to = vec_add(from, vec_scale(e.y < -level ? wall_distance : -wall_distance, e));
     }
     const struct vec way = vec_sub(to, from);
     if (!(vec_norm(way) > 0)) return;
@@ -128,17 +131,6 @@ static void draw_rack(struct figure *figure, size_t index)
     }
 }
 
-/* Draw a coupling that is seen in front of its bodies. */
-static void draw_coupling_over(struct figure *figure, size_t index)
-{
-    const char *kind = fbd_view_coupling(figure->view, index).kind;
-    if (strcmp(kind, "belt") == 0) figure_belt(figure, index);
-    if (strcmp(kind, "rope") == 0) figure_rope_arcs(figure, index);
-    if (strcmp(kind, "gear") == 0) draw_teeth(figure, index);
-    if (strcmp(kind, "rack") == 0) draw_rack(figure, index);
-    if (strcmp(kind, "slot") == 0) figure_groove(figure, index);
-}
-
 /* A cross; at a wall beyond it, seen from the body, if it is one to the ground. */
 static void draw_weld(struct figure *figure, size_t index)
 {
@@ -158,6 +150,43 @@ static void draw_weld(struct figure *figure, size_t index)
         panel_line(figure->pen, "thread", vec_sub(at, arms[i]), vec_add(at, arms[i]), 4);
 }
 
+/* A pin, with a bearing on the side away from the body where it is on the ground. */
+static void draw_pin(struct figure *figure, size_t index)
+{
+    const fbd_coupling_end ends[] = {fbd_view_coupling_end(figure->view, index, 0),
+                                     fbd_view_coupling_end(figure->view, index, 1)};
+    const struct vec at = figure_point(figure, ends[0].body, ends[0].point);
+    if (ends[1].body < 0) panel_bearing(figure->pen, at, 1);
+    svg_circle(&figure->pen->under, "hole", at, pin_radius);
+}
+
+/* True for a pin or weld whose points are at one place in the scene: others begin later. */
+static bool is_joined(const struct figure *figure, size_t index)
+{
+    const double apart = 0.1; /* [mm] */
+    struct vec at[2];
+    for (int k = 0; k < 2; k++) {
+        const fbd_coupling_end end = fbd_view_coupling_end(figure->view, index, (size_t)k);
+        const struct vec lift = end.body < 0 ? (struct vec){0, 0} : figure->panels[end.body].lift;
+        at[k] = vec_sub(figure_place(figure, end.body, end.point), lift);
+    }
+    return vec_norm(vec_sub(at[1], at[0])) * figure->pen->millimetres < apart;
+}
+
+/* Draw a coupling that is seen in front of its bodies. */
+static void draw_coupling_over(struct figure *figure, size_t index)
+{
+    const char *kind = fbd_view_coupling(figure->view, index).kind;
+    if (strcmp(kind, "belt") == 0) figure_belt(figure, index);
+    if (strcmp(kind, "rope") == 0 || strcmp(kind, "rod") == 0) figure_rope_over(figure, index);
+    if (strcmp(kind, "gear") == 0) draw_teeth(figure, index);
+    if (strcmp(kind, "rack") == 0) draw_rack(figure, index);
+    if (strcmp(kind, "slot") == 0) figure_groove(figure, index);
+    if (strcmp(kind, "pin") == 0 && is_joined(figure, index)) draw_pin(figure, index);
+    if (strcmp(kind, "weld") == 0 && is_joined(figure, index)) draw_weld(figure, index);
+}
+
+/* Draw a coupling that is seen beneath its bodies. */
 static void draw_coupling(struct figure *figure, size_t index)
 {
     const fbd_coupling coupling = fbd_view_coupling(figure->view, index);
@@ -169,13 +198,6 @@ static void draw_coupling(struct figure *figure, size_t index)
         figure_plane(figure, index);
     else if (strcmp(coupling.kind, "contact") == 0)
         figure_peg(figure, index);
-    else if (strcmp(coupling.kind, "pin") == 0) {
-        const fbd_coupling_end end = fbd_view_coupling_end(figure->view, index, 0);
-        const struct vec at = figure_point(figure, end.body, end.point);
-        if (fbd_view_coupling_end(figure->view, index, 1).body < 0) panel_bearing(figure->pen, at, 1);
-        svg_circle(&figure->pen->under, "hole", at, 1.1);
-    } else if (strcmp(coupling.kind, "weld") == 0)
-        draw_weld(figure, index);
 }
 
 void figure_links(struct figure *figure)
@@ -197,8 +219,8 @@ static void draw_ram(struct figure *figure, struct vec from, struct vec to, cons
     panel_line(pen, "thread", from, to, on_outline);
     svg_polygon(&pen->under, "body", corners, 4);
     for (int i = 0; i < 4; i++) labelling_avoid(&pen->labels, corners[i], corners[(i + 1) % 4], on_outline);
-    svg_circle(&pen->under, "hole", from, 1.1);
-    svg_circle(&pen->under, "hole", to, 1.1);
+    svg_circle(&pen->under, "hole", from, pin_radius);
+    svg_circle(&pen->under, "hole", to, pin_radius);
     labelling_add(&pen->labels, panel_indexed(&figure->arena, name), label_size,
                   vec_add(from, vec_scale((begins + ends) / 2, way)), vec_scale(1 / half, side), half + 0.8);
 }

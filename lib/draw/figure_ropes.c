@@ -32,20 +32,20 @@ static struct stop stop_of(const struct figure *figure, size_t index, size_t k)
  * `way` is the direction of the rope. */
 static void draw_anchor(struct figure *figure, const fbd_coupling *coupling, struct vec at, struct vec way)
 {
+    if (!(vec_norm(way) > 0)) way = (struct vec){0, 1};
     struct panel *pen = figure->pen;
     if (strcmp(coupling->kind, "rope") == 0 && coupling->length == 0) {
-        const struct vec side =
-                             vec_norm(way) > 0 ? vec_scale(drum_radius / vec_norm(way), vec_perp(way)) : way,
+        const struct vec side = vec_scale(drum_radius / vec_norm(way), vec_perp(way)),
                          center = vec_add(at, side.y < 0 ? side : vec_scale(-1, side));
         svg_circle(&pen->under, "body", center, drum_radius);
         svg_circle(&pen->under, "hole", center, 0.8);
         panel_avoid_circle(pen, center, drum_radius);
         box_take_circle(&pen->extent, center, drum_radius);
     } else if (strcmp(coupling->kind, "rod") == 0) {
-        panel_bearing(pen, at, 1);
-        svg_circle(&pen->under, "hole", at, 1.1);
+        panel_bearing(pen, at, way.y > 0 ? -1 : 1);
+        svg_circle(&pen->under, "hole", at, pin_radius);
     } else {
-        figure_wall(pen, at, (struct vec){0, -1});
+        figure_wall(pen, at, vec_scale(-1 / vec_norm(way), way));
     }
 }
 
@@ -68,13 +68,22 @@ void figure_rope(struct figure *figure, size_t index)
         const struct stop stop = stop_of(figure, index, k);
         if (stop.end.body < 0 && stop.radius > 0) draw_drum(figure, &stop);
         if (k > 0) panel_line(figure->pen, css, before.last, stop.first, on_outline);
-        const bool ends = k == 0 || k + 1 == coupling.end_count;
-        if (stop.end.body < 0 && !(stop.radius > 0) && ends)
+        before = stop;
+    }
+}
+
+/* The points of the ground where a rope or rod ends, or that it passes. */
+static void draw_anchors(struct figure *figure, size_t index)
+{
+    const fbd_coupling coupling = fbd_view_coupling(figure->view, index);
+    for (size_t k = 0; k < coupling.end_count; k++) {
+        const struct stop stop = stop_of(figure, index, k);
+        if (stop.end.body >= 0 || stop.radius > 0) continue;
+        if (k == 0 || k + 1 == coupling.end_count)
             draw_anchor(figure, &coupling, stop.center,
                         vec_sub(stop_of(figure, index, k == 0 ? 1 : k - 1).first, stop.center));
-        if (stop.end.body < 0 && !(stop.radius > 0) && !ends)
-            svg_circle(&figure->pen->under, "support", stop.center, 1.1);
-        before = stop;
+        else
+            svg_circle(&figure->pen->under, "support", stop.center, pin_radius);
     }
 }
 
@@ -111,9 +120,10 @@ static struct vec middle_of_arc(const struct stop *stop, struct vec way)
     return vec_unit(atan2(a.y, a.x) + sense * sweep / 2);
 }
 
-void figure_rope_arcs(struct figure *figure, size_t index)
+void figure_rope_over(struct figure *figure, size_t index)
 {
     const fbd_coupling coupling = fbd_view_coupling(figure->view, index);
+    draw_anchors(figure, index);
     for (size_t k = 0; k < coupling.end_count; k++) {
         const struct stop stop = stop_of(figure, index, k);
         if (!(stop.radius > 0)) continue;

@@ -151,7 +151,8 @@ static void draw_plate(struct panel *panel)
         edge(panel, corners, plate->count);
     }
     for (size_t i = 0; i < plate->count; i++)
-        svg_circle(&panel->under, "hole", panel_point(panel, panel_place(panel, plate->points[i])), 1.1);
+        svg_circle(&panel->under, "hole", panel_point(panel, panel_place(panel, plate->points[i])),
+                   pin_radius);
 }
 
 /* Draw a body without a size: a block on a slide, a disc elsewhere. */
@@ -181,7 +182,7 @@ static void draw_sizeless(struct panel *panel)
         const double r = panel->block.y / 2;
         const struct vec n = panel_direction(vec_of(panel->pose.normal));
         svg_circle(&panel->under, "support", vec_sub(G, vec_scale(r, n)), r);
-        svg_circle(&panel->under, "hole", G, 1.1);
+        svg_circle(&panel->under, "hole", G, pin_radius);
         return;
     }
     const struct vec half = panel_block(panel);
@@ -207,6 +208,21 @@ static void draw_center(struct panel *panel)
     labelling_add(&panel->labels, "G", label_size, G, (struct vec){-0.8, -0.6}, r + 0.4);
 }
 
+/* True for a body of one part whose centre of mass is not the middle of its drawing: an eccentric wheel, an arm without a
+ * shape. */
+static bool hides_center(const struct panel *panel)
+{
+    const struct plate *plate = &panel->plate;
+    const fbd_shape part = fbd_model_shape(panel->model, panel->index, 0);
+    const bool shaped = part.kind != FBD_SHAPE_UNKNOWN,
+               arm = panel->body.motion == FBD_MOTION_PIVOT && plate->count < 2 && plate->cam < 0;
+    if (fbd_model_shape_count(panel->model, panel->index) != 1 || !(shaped || arm || plate->wheel > 0))
+        return false;
+    const struct vec pin = plate->wheel > 0 ? plate->hub : vec_of(panel->body.pin),
+                     shown = shaped ? vec_of(part.center) : pin;
+    return vec_norm(vec_sub(panel->G, shown)) * panel->millimetres > pin_radius;
+}
+
 void panel_body(struct panel *panel)
 {
     const size_t shapes = fbd_model_shape_count(panel->model, panel->index);
@@ -230,7 +246,7 @@ void panel_body(struct panel *panel)
             if (!plain_dot) draw_part(panel, &part);
             take_part(panel, &part);
         }
-    if (!panel->joined) draw_center(panel);
+    if (!panel->joined || hides_center(panel)) draw_center(panel);
     text_add(&panel->under, "</g>\n");
 }
 
@@ -258,7 +274,7 @@ void panel_hatched_line(struct panel *panel, struct vec from, struct vec to, str
     labelling_avoid(&panel->labels, vec_add(from, deep), vec_add(to, deep), 2);
 }
 
-static void axis_arrow(struct panel *panel, struct vec from, struct vec to, const char *name)
+void panel_axis(struct panel *panel, struct vec from, struct vec to, const char *name)
 {
     struct vec d = vec_sub(to, from), unit = vec_scale(1 / vec_norm(d), d);
     struct vec back = vec_sub(to, vec_scale(2, unit)), side = vec_scale(0.8, vec_perp(unit));
@@ -269,9 +285,8 @@ static void axis_arrow(struct panel *panel, struct vec from, struct vec to, cons
     panel_note(panel, name, to, unit);
 }
 
-/* An arc around `center` from angle a by `sweep`, both as in the world, with a head at its end. */
-static void angle_arc(struct panel *panel, struct vec center, double radius, double a, double sweep,
-                      const char *name)
+void panel_turn(struct panel *panel, struct vec center, double radius, double a, double sweep,
+                const char *name)
 {
     double end = a + sweep, bow = fmin(fabs(sweep), 1.8 / radius);
     double shaft = end - copysign(bow, sweep);
@@ -303,8 +318,7 @@ static void angle_arc(struct panel *panel, struct vec center, double radius, dou
     panel_note(panel, name, vec_add(center, vec_scale(radius, out)), out);
 }
 
-/* The angle in degrees, or in radians if that overflows. */
-static const char *angle_text(struct panel *panel, const char *name, double angle)
+const char *panel_degrees(struct panel *panel, const char *name, double angle)
 {
     double degrees = angle * 180 / pi;
     const bool finite = isfinite(degrees);
@@ -316,8 +330,8 @@ void panel_slope(struct panel *panel, struct vec foot, struct vec up)
 {
     const double side = up.x < 0 ? -1 : 1, turn = atan2(up.y, fabs(up.x));
     panel_line(panel, "reference", foot, vec_add(foot, (struct vec){18 * side, 0}), 3);
-    const char *text = angle_text(panel, "", turn);
-    if (text) angle_arc(panel, foot, 13, side < 0 ? pi : 0, side * turn, text);
+    const char *text = panel_degrees(panel, "", turn);
+    if (text) panel_turn(panel, foot, 13, side < 0 ? pi : 0, side * turn, text);
 }
 
 static void draw_slide(struct panel *panel)
@@ -342,7 +356,7 @@ static void draw_slide(struct panel *panel)
         panel_line(panel, "reference", vec_sub(G, half), vec_add(G, half), 2);
         far = vec_add(G, vec_scale(reach + 9, e));
     }
-    axis_arrow(panel, vec_sub(far, vec_scale(9, e)), far, "x");
+    panel_axis(panel, vec_sub(far, vec_scale(9, e)), far, "x");
     double along = atan2(panel->pose.along[1], panel->pose.along[0]);
     if (fabs(remainder(along, pi / 2)) < 1e-9) return;
     /* the angle from the horizontal, at the low end of the line */
@@ -350,11 +364,11 @@ static void draw_slide(struct panel *panel)
     double turn = along;
     panel_line(panel, "reference", foot, vec_add(foot, (struct vec){18, 0}), 3);
     const char *name = panel->slope ? arena_printf(panel->arena, "%s = ", panel->slope) : "",
-               *text = name ? angle_text(panel, name, turn) : NULL;
-    if (text) angle_arc(panel, foot, 13, 0, turn, text);
+               *text = name ? panel_degrees(panel, name, turn) : NULL;
+    if (text) panel_turn(panel, foot, 13, 0, turn, text);
 }
 
-static double coordinate_of(const struct panel *panel, size_t index)
+double panel_coordinate(const struct panel *panel, size_t index)
 {
     double value = NAN;
     fbd_state_get(panel->state, fbd_model_coordinate(panel->model, index).name, &value);
@@ -374,16 +388,16 @@ static bool is_repeated(const struct panel *panel, const char *text)
 /* Draw the angle of rotation of a body, from the direction `zero` in the world. */
 static void draw_angle(struct panel *panel, struct vec center, double zero, double length)
 {
-    double theta = coordinate_of(panel, (size_t)panel->body.angle), turn = remainder(theta, 2 * pi);
+    double theta = panel_coordinate(panel, (size_t)panel->body.angle), turn = remainder(theta, 2 * pi);
     struct vec end = vec_add(center, vec_scale(length, panel_direction(vec_unit(zero))));
-    const char *text = angle_text(panel, "θ = ", theta);
+    const char *text = panel_degrees(panel, "θ = ", theta);
     if (!text || is_repeated(panel, text)) return;
     panel_line(panel, "reference", center, end, 5);
     if (fabs(turn) < 0.03)
         panel_note(panel, text, end, panel_direction(vec_unit(zero)));
     else
-        angle_arc(panel, center, panel->body.motion == FBD_MOTION_PLANAR ? length - 3 : fmin(length - 2, 17),
-                  zero, turn, text);
+        panel_turn(panel, center, panel->body.motion == FBD_MOTION_PLANAR ? length - 3 : fmin(length - 2, 17),
+                   zero, turn, text);
 }
 
 void panel_bearing(struct panel *panel, struct vec axis, double down)
@@ -404,8 +418,9 @@ static void draw_pivot(struct panel *panel)
     struct vec d = {0, hangs && G.y > -0.3 * vec_norm(G) ? -1 : 1};
     if (on_ground(panel) && panel->drawing->supports) panel_bearing(panel, axis, d.y);
     if (panel->body.friction && panel->drawing->supports) panel_bush(panel, axis);
+    if (panel->joined) svg_circle(&panel->under, "hole", axis, pin_radius);
     /* theta is zero where the body's frame is parallel to that of its parent */
-    double parent = panel->pose.angle - coordinate_of(panel, panel->body.coordinate);
+    double parent = panel->pose.angle - panel_coordinate(panel, panel->body.coordinate);
     struct vec arm = vec_sub(panel->G, vec_of(panel->body.pin));
     double zero = parent + (hangs ? atan2(arm.y, arm.x) : 0);
     draw_angle(panel, axis, zero, hangs ? fmin(fmax(0.7 * vec_norm(G), 14), 26) : 20);
@@ -430,7 +445,7 @@ static void draw_track(struct panel *panel)
     const int segments = panel->joined ? 120 : 40;
     const double half = 2 * (panel->drawing->supports ? surface_half : free_half);
     const fbd_track track = fbd_model_track(panel->model, panel->index);
-    const double here = coordinate_of(panel, panel->body.coordinate);
+    const double here = panel_coordinate(panel, panel->body.coordinate);
     const fbd_track_place now = fbd_model_track_place(panel->model, panel->index, here);
     double scale =
         panel->sized ? panel->millimetres : fmax(12 * fabs(now.curvature), 6 * half / track.length);
@@ -449,7 +464,7 @@ static void draw_track(struct panel *panel)
         before = at;
     }
     struct vec from = vec_add(P, vec_scale(-9, panel_direction(vec_of(panel->pose.normal))));
-    axis_arrow(panel, from, vec_add(from, vec_scale(9, panel_direction(e))), "s");
+    panel_axis(panel, from, vec_add(from, vec_scale(9, panel_direction(e))), "s");
 }
 
 void panel_fixtures(struct panel *panel)
@@ -461,7 +476,7 @@ void panel_fixtures(struct panel *panel)
     if (panel->body.motion == FBD_MOTION_WELD) panel_clamp(panel);
     if (panel->body.motion == FBD_MOTION_PLANAR && !panel->joined) {
         struct vec G = panel_point(panel, panel_place(panel, panel->G));
-        double theta = coordinate_of(panel, (size_t)panel->body.angle);
+        double theta = panel_coordinate(panel, (size_t)panel->body.angle);
         double reach =
             shapes_reach(panel->model, panel->index, panel->G, (struct vec){1, 0}) * panel->millimetres;
         draw_axis_of_body(panel, G, reach + 12);

@@ -33,14 +33,16 @@ const struct node *letters_part(const struct letters *letters, const char *body,
     return parts->kind == node_map && part < parts->count ? parts->pairs[part].value : NULL;
 }
 
-/* The value behind the key at a position of the file. */
+/* The value behind the key at a position of the file, or the item of a list there. */
 static const struct node *node_at(const struct node *node, int line, int column)
 {
     for (size_t i = 0; i < node->count; i++) {
         const struct pair *pair = node->kind == node_map ? &node->pairs[i] : NULL;
         if (pair && pair->at.line == line && pair->at.column == column) return pair->value;
-        const struct node *found = node_at(pair ? pair->value : node->items[i], line, column);
+        const struct node *inside = pair ? pair->value : node->items[i];
+        const struct node *found = node_at(inside, line, column);
         if (found) return found;
+        if (!pair && inside->at.line == line && inside->at.column == column) return inside;
     }
     return NULL;
 }
@@ -74,10 +76,15 @@ static const char *letter_of(const struct letters *letters, size_t parameter)
     return panel_indexed(letters->arena, fbd_model_parameter(letters->model, parameter).name);
 }
 
-const char *letters_slope(const struct letters *letters, const char *body)
+const struct node *letters_motion(const struct letters *letters, const char *body)
 {
     const struct node *motion = value_of(value_of(value_of(letters->root, "bodies"), body), "motion");
-    const size_t index = parameter_of(letters, value_of(value_of(motion, "slide"), "along"));
+    return motion && motion->kind == node_map && motion->count > 0 ? motion->pairs[0].value : NULL;
+}
+
+const char *letters_slope(const struct letters *letters, const char *body)
+{
+    const size_t index = parameter_of(letters, value_of(letters_motion(letters, body), "along"));
     return index < fbd_model_parameter_count(letters->model) ? letter_of(letters, index) : NULL;
 }
 
@@ -89,7 +96,7 @@ const char *letters_text(struct letters *letters, const struct node *map, const 
     if (!given || given->kind != node_scalar || given->quoted) return NULL;
     if (index < fbd_model_parameter_count(letters->model)) {
         const fbd_parameter parameter = fbd_model_parameter(letters->model, index);
-        letters->units[index] = parameter.unit[0] ? parameter.unit : unit;
+        letters->units[index] = unit[0] ? unit : parameter.unit;
         return letter_of(letters, index);
     }
     const bool known =

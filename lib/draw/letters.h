@@ -28,6 +28,9 @@ const struct node *letters_part(const struct letters *letters, const char *body,
 /* The mapping of a force, a coupling or a contact, of the body or of `couplings`; or NULL. */
 const struct node *letters_entry(const struct letters *letters, const char *body, const char *name);
 
+/* The mapping of the keys of a slide, pivot or other motion of the body; NULL where it has none. */
+const struct node *letters_motion(const struct letters *letters, const char *body);
+
 /* The letter of the angle `along` of a slide; NULL if it is a number or an expression. */
 const char *letters_slope(const struct letters *letters, const char *body);
 

@@ -15,6 +15,9 @@
 /* Sizes on paper [mm]. */
 static const double label_size = 3.4, note_size = 2.9, longest_arrow = 40, shortest_arrow = 5;
 
+/* Of a pin, on paper [mm]. */
+static const double pin_radius = 1.1;
+
 /* Block for a slide without a size in the file: half width and half height on paper [mm]. */
 static const struct vec conventional_block = {9, 6.5};
 
@@ -162,6 +165,19 @@ void panel_write_arrows(const struct panel *panel, struct text *text);
 
 /* The arc of a moment with its head. */
 void panel_write_arc(struct text *text, const struct panel_arrow *arrow);
+
+/* A thin arrow with a name at its tip: an axis, or the velocity of a surface. */
+void panel_axis(struct panel *panel, struct vec from, struct vec to, const char *name);
+
+/* An arc around `center` from angle a by `sweep`, both as in the world, with a head at its end. */
+void panel_turn(struct panel *panel, struct vec center, double radius, double a, double sweep,
+                const char *name);
+
+/* "θ = 30°": an angle in degrees, or in radians if that overflows. */
+const char *panel_degrees(struct panel *panel, const char *name, double angle);
+
+/* The value of a coordinate of the model. */
+double panel_coordinate(const struct panel *panel, size_t index);
 
 /* The angle of a slope with the horizontal, at its low end on paper; `up` is a unit vector of the world. */
 void panel_slope(struct panel *panel, struct vec foot, struct vec up);

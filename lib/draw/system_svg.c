@@ -74,6 +74,7 @@ static struct box extent_of(const struct figure *figure)
     }
     figure_take_lines(figure, &box);
     figure_take_polygons(figure, &box);
+    figure_take_stops(figure, &box);
     for (size_t i = 0; i < fbd_model_connection_count(figure->model); i++) take_curve(figure, i, &box);
     return box;
 }
@@ -201,23 +202,32 @@ static bool stack(struct figure *figure)
 
 /* ---- the whole */
 
-/* Draw each body with the labelling and the text of the one before, so that labels avoid all of them. */
+/* Draw a part of a body with the labelling and the text of those before, so that labels avoid all of them. */
+static void draw_of_body(struct figure *figure, size_t b, void (*draw)(struct panel *panel))
+{
+    struct panel *panel = &figure->panels[b];
+    panel->under = figure->pen->under;
+    panel->labels = figure->pen->labels;
+    panel->extent = figure->pen->extent;
+    draw(panel);
+    *figure->pen = *panel;
+    panel->under = (struct text){0};
+}
+
+/* True for a body on a surface or track: it lies before that, others behind their bearing and angle. */
+static bool lies_on_path(const struct panel *panel)
+{
+    return panel->body.motion == FBD_MOTION_SLIDE || panel->body.motion == FBD_MOTION_TRACK;
+}
+
 static void draw_bodies(struct figure *figure)
 {
-    struct panel before = *figure->pen;
     for (size_t b = 0; b < figure->count; b++) {
-        struct panel *panel = &figure->panels[b];
-        panel->under = before.under;
-        panel->labels = before.labels;
-        panel->extent = before.extent;
-        const bool in_front = panel_fixtures_in_front(panel);
-        if (!in_front) panel_fixtures(panel);
-        panel_body(panel);
-        if (in_front) panel_fixtures(panel);
-        before = *panel;
-        panel->under = (struct text){0};
+        if (lies_on_path(&figure->panels[b])) draw_of_body(figure, b, panel_fixtures);
+        draw_of_body(figure, b, panel_body);
     }
-    *figure->pen = before;
+    for (size_t b = 0; b < figure->count; b++)
+        if (!lies_on_path(&figure->panels[b])) draw_of_body(figure, b, panel_fixtures);
 }
 
 static bool prepare(struct figure *figure, const fbd_state *state, const fbd_drawing *drawing)
@@ -248,6 +258,7 @@ static void draw(struct figure *figure)
     figure_links(figure);
     draw_bodies(figure);
     figure_links_over(figure);
+    figure_surfaces(figure);
     figure_forces(figure);
     figure_marks(figure);
     figure_dimensions(figure);

@@ -110,6 +110,28 @@ check 'letters with a number' exits 0 draw "$models/trees/stacked_blocks.yaml" -
 check 'have it as their index' says ">m${index}1</tspan></text>" out
 check 'a rod given by its ends' exits 0 draw "$models/statics/cantilever.yaml" --system
 check 'has the letter of its length' says '>L = 2 m<' out
+check 'a belt' exits 0 draw "$models/hard/stick_slip_belt.yaml" --system
+check 'has its speed' says ">v${index}b</tspan></text>" out
+check 'a conveyor' exits 0 draw "$models/contact/conveyor_belt.yaml" --system
+check 'has it under both bodies' sh -c '[ "$(grep -c ">s</text>" out)" -eq 2 ]'
+check 'a spring about an axis' exits 0 draw "$models/rotation/torsional_pendulum.yaml" --system
+check 'has its stiffness' says '>k = 0.9 N·m/rad<' out
+check 'a plate' exits 0 draw "$models/plane/plate_with_hole.yaml" --system
+check 'is behind its bearing and its angle' sh -c '[ "$(grep -n "plate-outline" out | cut -d: -f1)" -lt "$(grep -n "plate-fixtures" out | cut -d: -f1)" ]'
+check 'an eccentric wheel' exits 0 draw "$models/couplings/eccentric_wheel.yaml" --system
+check 'has its centre of mass' says '>G</text>' out
+cat >stops.yaml <<'end'
+fbd: 1
+parameters: {a: 0.5 m}
+bodies:
+  cart: {shape: prism, mass: 2 kg, a: 0.3 m, b: 0.15 m, c: 0.1 m, motion: {slide: {min: -2*a, max: a}}, forces: [gravity, normal]}
+  rod: {shape: rod, mass: 1 kg, from: [0, 0], to: [0, -0.4 m], motion: {pivot: {on: cart, min: -40 deg, max: 40 deg}}, forces: [gravity]}
+simulate: {until: 1 s}
+end
+check 'stops' exits 0 draw stops.yaml --system
+for text in 'x ≥ −1 m' 'x ≤ a' 'θ ≥ −40°' 'θ ≤ 40°' 'a = 0.5 m'; do
+    check "have $text" says ">$text<" out
+done
 check '--system is no body alone' exits 2 draw "$crank" --system --body piston
 
 all_drawn() { # the figure of every model, well formed

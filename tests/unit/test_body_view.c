@@ -56,6 +56,27 @@ static void a_body_has_its_entries_and_its_motion(void **context)
     fbd_model_free(model);
 }
 
+static void a_body_has_its_stops(void **context)
+{
+    (void)context;
+    static const char stopped[] =
+        "fbd: 1\n"
+        "parameters: {a: 0.5 m}\n"
+        "bodies:\n"
+        "  free: {mass: 1 kg, motion: slide, forces: [gravity, normal]}\n"
+        "  cart: {mass: 1 kg, motion: {slide: {min: -2*a}}, forces: [gravity, normal]}\n"
+        "  lever: {mass: 1 kg, inertia: 1 kg*m^2, motion: {pivot: {max: 90 deg}}}\n"
+        "simulate: {until: 1 s}\n";
+    fbd_model *model = model_from(stopped);
+    const fbd_body none = fbd_model_body(model, 0), cart = fbd_model_body(model, 1),
+                   lever = fbd_model_body(model, 2);
+    assert_true(isnan(none.stops[0]) && isnan(none.stops[1]));
+    assert_true(cart.stops[0] == -1 && isnan(cart.stops[1]));
+    assert_true(isnan(lever.stops[0]) && fabs(lever.stops[1] - acos(0)) < 1e-15);
+    assert_true(isnan(fbd_model_body(model, 3).stops[0]));
+    fbd_model_free(model);
+}
+
 static void forces_have_their_laws(void **context)
 {
     (void)context;
@@ -167,6 +188,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_body_has_its_entries_and_its_motion),
+        cmocka_unit_test(a_body_has_its_stops),
         cmocka_unit_test(forces_have_their_laws),
         cmocka_unit_test(a_pin_has_no_direction),
         cmocka_unit_test(a_pose_is_that_of_the_coordinates),
