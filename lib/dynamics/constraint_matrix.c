@@ -235,18 +235,27 @@ static double entry(const struct fbd_model *model, const struct instant *at, int
 }
 
 /* Chain the active unknowns that act on a tree: an entry of place p is p times most_constraint_ends, plus the number
- * of the tree among its own. */
+ * of the tree among its own. A row begins at the first of those that act on its trees, but not before the place in
+ * work->first, where it begins if all unknowns are active. */
 static void set_chains(const struct tree *tree, struct tree_work *work)
 {
+    int *oldest = work->mark;
+    size_t size = 0;
     for (int i = 0; i < tree->count; i++) work->newest[i] = -1;
     for (int p = 0; p < work->count; p++) {
         const int *roots;
-        int count = roots_of(tree, work->unknown_at[p], &roots);
+        int count = roots_of(tree, work->unknown_at[p], &roots), first = p;
         for (int i = 0, entry = p * most_constraint_ends; i < count; i++, entry++) {
+            if (work->newest[roots[i]] < 0) oldest[roots[i]] = p;
+            if (oldest[roots[i]] < first) first = oldest[roots[i]];
             work->older[entry] = work->newest[roots[i]];
             work->newest[roots[i]] = entry;
         }
+        if (first > work->first[p]) work->first[p] = first;
+        work->envelope[p] = size;
+        size += (size_t)(p - work->first[p]);
     }
+    work->envelope_size = size;
 }
 
 /* Number the active unknowns. Open contacts and slipping friction have no cost in the following. */
@@ -257,7 +266,6 @@ static void set_places(const struct fbd_model *model, const struct instant *at)
     for (int j = 0; j < tree->row_count; j++) work->rows[j].redundant = work->rows[j].weak = false;
     if (work->placed) return;
     int count = 0, all = tree_unknowns(tree);
-    size_t size = 0;
     for (int p = 0; p < all; p++) {
         int k = tree->unknown_at[p];
         work->rank[p] = count;
@@ -266,13 +274,9 @@ static void set_places(const struct fbd_model *model, const struct instant *at)
         if (!tree_takes_part(tree, at, k)) continue;
         work->place[k] = count;
         work->unknown_at[count] = k;
-        work->first[count] = work->rank[tree->first[p]];
-        work->envelope[count] = size;
-        size += (size_t)(count - work->first[count]);
-        count++;
+        work->first[count++] = work->rank[tree->first[p]];
     }
     work->count = count;
-    work->envelope_size = size;
     set_chains(tree, work);
     work->placed = model->plan.mode_count == 0 && !tree->ends && tree->massless_count == 0;
 }

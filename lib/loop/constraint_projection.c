@@ -20,15 +20,19 @@ static bool has_couplings(const struct run *run)
     return run->model->tree->coupling_count > 0;
 }
 
-/* The largest change from `from` to `to`, in tolerances relative to the largest value of each number so far. */
+/* The largest change from `from` to `to`, in tolerances relative to the largest value of each number so far. A body that
+ * does not move along a coordinate has no such value: changes by the rounding of the mechanism are none. */
 static double tolerances_apart(const struct run *run, const double *from, const double *to)
 {
+    const double roundings = round_off(64, 1), reach = run->drift.reach, speed = run->drift.speed;
+    const struct coordinate *coordinates = run->model->scene->coordinates;
     size_t n = (size_t)run->model->plan.n;
     const double *most = run->recent.anchor + plan_size(&run->model->plan);
     double apart = 0;
     for (size_t i = 0; i < 2 * n; i++) {
-        double moved = fabs(to[i] - from[i]);
-        if (moved > 0) apart = fmax(apart, moved / (run->options.tolerance * fmax(most[i], fabs(to[i]))));
+        double moved = fabs(to[i] - from[i]), size = i < n ? reach : speed;
+        if (moved * (coordinates[i % n].angle ? reach : 1) > roundings * size)
+            apart = fmax(apart, moved / (run->options.tolerance * fmax(most[i], fabs(to[i]))));
     }
     return apart;
 }

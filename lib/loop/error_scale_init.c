@@ -25,6 +25,12 @@ static double starting(const struct run *run, size_t i, double tau)
     return changes ? later : a;
 }
 
+/* Does it not start, or by rounding only? Such a number changes from state to state, and lasts for no time. */
+static bool starts_by_rounding(const struct run *run, size_t i, double a)
+{
+    return fabs(a) <= run->roundoff.accelerations[i];
+}
+
 static void vary(struct run *run, const struct instant *at, const double *dy, double *along)
 {
     struct scratch scratch = state_scratch(run->state);
@@ -57,7 +63,9 @@ static void end_with_forces(struct run *run, double tau, double *times)
         bool known = accelerations_there(run, run->state->t + t, run->state->y, f);
         for (size_t i = 0; i < rates; i++) {
             double a = starting(run, i, t);
-            if (times[i] < t || a == 0 || (known && fabs(f[n + i] - a) <= most * fabs(a))) continue;
+            if (times[i] < t || starts_by_rounding(run, i, a) ||
+                (known && fabs(f[n + i] - a) <= most * fabs(a)))
+                continue;
             times[i] = t / 2;
             ends = true;
         }
@@ -115,7 +123,7 @@ static void end_with_bends(struct run *run, double *times)
         bool known = accelerations_there(run, run->state->t, y, f);
         for (size_t i = 0; i < rates; i++) {
             double a = starting(run, i, times[i]);
-            if (a == 0 || (known && fabs(f[n + i] - a) <= most * fabs(a))) continue;
+            if (starts_by_rounding(run, i, a) || (known && fabs(f[n + i] - a) <= most * fabs(a))) continue;
             times[i] /= 2;
             bent = true;
         }

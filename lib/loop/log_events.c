@@ -10,7 +10,7 @@
 /* Modes of a pair before and after. */
 struct change {
     int pair, before, after;
-    bool stopped; /* its velocity has become zero */
+    const bool *moving; /* the functions that have crossed, or NULL */
 };
 
 /* The excess of an open constraint that is at round-off level, so that rounding at another position does not
@@ -69,6 +69,17 @@ static bool rubbed_throughout(const struct run *run, const struct mode *mode)
     return run->during->slip[coupling->surface] == stick && run->state->slip[coupling->surface] == stick;
 }
 
+/* Has its velocity become zero? */
+static bool has_stopped(const struct run *run, const struct change *change)
+{
+    const struct watcher_set *set = &run->watchers.moving;
+    for (size_t i = 0; change->moving && i < set->count; i++)
+        if (change->moving[i] && set->watchers[i].kind == watch_slip_stop &&
+            set->watchers[i].index == change->pair)
+            return true;
+    return false;
+}
+
 static void note_rubbing(struct run *run, const struct change *change)
 {
     const struct mode *mode = &run->model->plan.modes[change->pair];
@@ -86,7 +97,8 @@ static void note_rubbing(struct run *run, const struct change *change)
         else
             log_friction(run, FBD_EVENT_STICK, pair);
     }
-    if (change->stopped && after != stick && after != before) log_friction(run, FBD_EVENT_REVERSAL, pair);
+    if (after != stick && after != before && has_stopped(run, change))
+        log_friction(run, FBD_EVENT_REVERSAL, pair);
 }
 
 /* By kind; a drive has no events, and those of a contact are logged by run_release_contacts. */
@@ -97,12 +109,8 @@ static void (*const note[mode_kinds])(struct run *run, const struct change *chan
 /* Log the changes of each pair by its modes before and after, whichever event was the cause. */
 static void note_frictions(struct run *run, const bool *moving)
 {
-    const struct watcher_set *set = &run->watchers.moving;
     for (int pair = 0; pair < (int)run->model->plan.mode_count; pair++) {
-        struct change change = {pair, run->during->slip[pair], run->state->slip[pair], false};
-        for (size_t i = 0; moving && i < set->count; i++)
-            change.stopped |=
-                moving[i] && set->watchers[i].kind == watch_slip_stop && set->watchers[i].index == pair;
+        const struct change change = {pair, run->during->slip[pair], run->state->slip[pair], moving};
         enum mode_kind kind = run->model->plan.modes[pair].kind;
         if (note[kind]) note[kind](run, &change);
     }
