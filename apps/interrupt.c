@@ -26,7 +26,7 @@ bool interrupt_asked(const struct interrupt *interrupt)
     sigset_t pending;
     if (sigpending(&pending) != 0) return false;
     for (int i = 0; i < signal_count; i++)
-        if (sigismember(&interrupt->held, signals[i]) == 1 && sigismember(&pending, signals[i]) == 1)
+        if (sigismember(&pending, signals[i]) == 1 && sigismember(&interrupt->held, signals[i]) == 1)
             return true;
     return false;
 }

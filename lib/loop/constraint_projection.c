@@ -51,7 +51,7 @@ static double close_at(struct run *run, double t, double *y)
 void project_within(struct run *run, double t, double *y)
 {
     const double far = 100;
-    if (!has_couplings(run)) return;
+    if (!has_couplings(run) || run->flies) return; /* in flight no constraint acts */
     double moved = close_at(run, t, y);
     if (moved <= far) return;
     /* In a step past a singular position the dense output may be less accurate than the end of the step,
@@ -276,7 +276,7 @@ void project_step(struct run *run)
     constraints_follow(run->model, run->state->tree);
     run->liveliest = fmax(run->liveliest, fmax(before, after));
     double reach = measure(run);
-    coupled_scales_set_floors(&run->mechanisms, run->state, run->stepper);
+    if (!run_is_exact(run)) coupled_scales_set_floors(&run->mechanisms, run->state, run->stepper);
     if (overlong_rope(run, explained(run) * reach)) return;
     /* Positions near the origin have no size there: a stop at zero. */
     bool nothing = misfit.position <= round_off(16, run->drift.reach);

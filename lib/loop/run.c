@@ -235,18 +235,21 @@ static bool restart(struct run *run)
     scan_forget(&run->search.timed);
     run->search.knows_timed = false;
     scan_forget(&run->search.moving);
-    coupled_scales_join(&run->mechanisms, run->state);
     bind_rates(run);
     run_choose_method(run);
-    if (!run_is_exact(run)) roundoff_estimate(run);
+    if (!run_is_exact(run)) {
+        coupled_scales_join(&run->mechanisms, run->state);
+        roundoff_estimate(run);
+    }
     watchers_follow(&run->watchers, run->during);
     int status = run_start_stepper(run);
     if (status != GSL_SUCCESS) {
         run_fail_step(run, stepper_bad_function);
         return false;
     }
-    watchers_set_rounding(&run->watchers.moving, run->during, run->search.moving.series.rounding,
-                          run->search.moving.series.jump);
+    if (!run->watchers.all_affine) /* some are sampled */
+        watchers_set_rounding(&run->watchers.moving, run->during, run->search.moving.series.rounding,
+                              run->search.moving.series.jump);
     if (run->step.first == 0) run->step.first = run->step.h;
     if (run_is_one_step(run)) run->step.h = run->options.until - run->state->t;
     if (run->kind == structure_linear && !run_start_linear(run)) return false;
