@@ -8,6 +8,7 @@
 #include "dynamics/closed_loops.h"
 #include "dynamics/constraint.h"
 #include "dynamics/nonfinite.h"
+#include "dynamics/plane_friction.h"
 #include "dynamics/project.h"
 #include "loop/switch_event.h"
 #include "numeric/tolerances.h"
@@ -241,6 +242,8 @@ static bool restart(struct run *run)
     run_choose_method(run);
     if (!run_is_exact(run)) roundoff_estimate(run);
     watchers_follow(&run->watchers, run->during);
+    if (run->model->tree && run->model->tree->plane_count > 0 && planes_set_out(run->state))
+        switcher_expect_stiff(run->stepper);
     int status = switcher_reset(run->stepper, &run->system, run_end(run), run->work.y, run->work.f,
                                 time_dd_at(run->options.until), &run->step.h);
     if (status != GSL_SUCCESS) {
