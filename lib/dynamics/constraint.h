@@ -70,7 +70,8 @@ struct coupling_state {
     double turned[2]; /* and their rotation since, by constraints_follow */
     double laid[2];   /* at the start: wound length on the end discs; belt: its rows; weld: end 0 in link 1 */
     double foot;      /* slot: the arc length of its point, by constraints_follow */
-    struct vec e, n;  /* plane friction: direction of its first row; of its force while it slips */
+    struct vec e, n;  /* plane friction: direction of its first row; of its force while it slips; */
+    double nu;        /* and the speed nu (plane_friction.h) */
     int feature;      /* contact: its feature; no_feature while it is open */
 };
 

@@ -60,9 +60,11 @@ static struct slip_of_point slip_now(const struct coupling *coupling, const stru
 void plane_follow(const struct view *view, const struct coupling *coupling, struct coupling_state *state)
 {
     const double rounding = solved_rounding; /* it sticks */
+    const double turned = 0.5;     /* by 60 degrees */
     const struct slip_of_point now = slip_now(coupling, view->work->links);
     const double speed = vec_norm(now.u);
-    if (speed > rounding * now.size) state->e = vec_scale(1 / speed, now.u);
+    if (speed <= fmax(rounding * now.size, soft_speeds * state->nu)) return;
+    if (vec_dot(state->e, now.u) < turned * speed) state->e = vec_scale(1 / speed, now.u);
 }
 
 static bool plane_slips(const struct tree *tree, const struct instant *at, int index)
@@ -134,9 +136,10 @@ void planes_load(const struct fbd_model *model, const struct instant *at)
         const struct slip_of_point now = slip_now(coupling, work->links);
         const double limit = limit_of(model, at, i, NULL, NULL);
         const struct vec e = work->couplings[i].e;
-        const struct vec n = against(vec_add(now.u, vec_scale(limit * coupling->soft, e)), e);
-        const struct vec f = vec_scale(limit, n);
+        const double nu = limit * coupling->soft;
+        const struct vec n = against(vec_add(now.u, vec_scale(nu, e)), e), f = vec_scale(limit, n);
         work->couplings[i].n = n;
+        work->couplings[i].nu = nu;
         push(&work->x[coupling->end[0].link], now.arm[0], f);
         push(&work->x[coupling->end[1].link], now.arm[1], vec_scale(-1, f));
     }

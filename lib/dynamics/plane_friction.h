@@ -7,7 +7,7 @@
  *     stick   u = 0, f a reaction with |f| <= c_s
  *
  * The rows of the coupling are e . u and (k x e) . u, constraints of velocities while the point sticks. While it
- * slips e is a direction near that of u, renewed after each step, and the force is
+ * slips e is a direction near that of u, renewed where u has turned away from it, and the force is
  *
  *     f = -c_k s w / |w|,   w = u + nu e,   s = sign(e . w)
  *
@@ -64,6 +64,10 @@ struct plane_speed {
     double slip, size;
 };
 struct plane_speed plane_speed(const struct fbd_model *model, const struct tree_work *work, int index);
+
+/* Does a body begin to slip at several points? The directions of their forces then follow that of its motion at rates that
+ * are unlimited. */
+bool planes_set_out(struct fbd_state *state);
 
 /* Are both couplings points of one body on one plane? */
 bool planes_are_one(const struct tree *tree, int one, int other);

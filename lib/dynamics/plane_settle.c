@@ -40,12 +40,15 @@ static bool moves(const struct fbd_state *state, const struct decided *decided, 
            coupling_slip_rounding(state->model, &at, index);
 }
 
-/* Let it slip in the direction of its velocity; true when its force stays as it is. */
-static bool follow(struct fbd_state *state, int pair)
+/* Let it slip in the direction of its velocity, or on in that of its start; true when its force stays as it is. */
+static bool follow(struct fbd_state *state, const struct decided *decided, int pair)
 {
     const int index = mode_of(state, pair)->coupling;
     const struct vec before = state->tree->couplings[index].e;
     const bool same = state->slip[pair] == slip_plus;
+    const bool slow = plane_speed(state->model, state->tree, index).slip <=
+                      soft_speeds * state->tree->couplings[index].nu;
+    if (decided && same && slow) return true;
     state->slip[pair] = slip_plus;
     plane_aim(state->model, state->tree, index);
     return same && vec_norm(vec_sub(before, state->tree->couplings[index].e)) <= negligible_sum;
@@ -255,7 +258,7 @@ bool planes_settle(struct fbd_state *state, const struct decided *decided)
             rest.pair[rest.count++] = pair;
             continue;
         }
-        same &= follow(state, pair);
+        same &= follow(state, decided, pair);
     }
     if (rest.count > 0) same &= settle_at_rest(&rest, decided, &arena);
     state_take_back(state, &arena);
@@ -280,4 +283,22 @@ void plane_unstick(struct fbd_state *state, int pair)
     if (state->slip[pair] != stick || slip <= coupling_slip_rounding(state->model, &at, index)) return;
     plane_aim(state->model, state->tree, index);
     state->slip[pair] = slip_plus;
+}
+
+static bool sets_out(const struct fbd_state *state, int index)
+{
+    const struct coupling *coupling = &state->model->tree->couplings[index];
+    return coupling->kind == constraint_plane && state->slip[coupling->pair] != stick &&
+           !coupling_is_gone(state->tree, coupling) &&
+           plane_speed(state->model, state->tree, index).slip <= soft_speeds * state->tree->couplings[index].nu;
+}
+
+bool planes_set_out(struct fbd_state *state)
+{
+    const struct tree *tree = state->model->tree;
+    bool any = false;
+    for (int i = 0; i < tree->coupling_count; i++)
+        for (int j = 0; j < i; j++)
+            any |= planes_are_one(tree, i, j) && sets_out(state, i) && sets_out(state, j);
+    return any;
 }

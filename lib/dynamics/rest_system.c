@@ -136,6 +136,9 @@ static void add_base(struct rest_system *system)
         work->links[i].F.force = vec_add(work->links[i].F.force, base->F[i].force);
     }
     for (int j = 0; j < tree->row_count; j++) work->rows[j].lambda += base->lambda[j];
+    for (int i = 0; tree->plane_count > 0 && i < tree->coupling_count; i++) /* a magnitude is no sum */
+        if (tree->couplings[i].kind == constraint_plane)
+            tree_coupling_slots(system->state->model, &system->at, i, system->forces);
 }
 
 /* All forces at the present lambda. */

@@ -73,6 +73,20 @@ void switcher_use_exact(struct switcher *s, bool exact)
     s->now = exact ? by_exact : s->general;
 }
 
+/* Give the error norm of the other method the states that this one has reached. */
+static void follow(struct switcher *s)
+{
+    error_norm_follow(stepper_control(s->steppers[!s->now]), stepper_control(s->steppers[s->now]));
+}
+
+void switcher_expect_stiff(struct switcher *s)
+{
+    if (s->now != 0 || !s->methods[1] || !make_implicit(s)) return;
+    follow(s);
+    s->now = 1;
+    s->stiffness.implicit = true;
+}
+
 int switcher_reset(struct switcher *s, struct counted_system *system, struct time_dd t, const double *y,
                    double *f, struct time_dd t_limit, double *h)
 {
@@ -110,12 +124,6 @@ static double attempt(struct switcher *s, struct counted_system *system, struct 
 {
     if (time_dd_since(t_limit, t0) < size) return INFINITY;
     return stepper_attempt(s->steppers[!s->now], system, s->steppers[s->now], size);
-}
-
-/* Give the error norm of the other method the states that this one has reached. */
-static void follow(struct switcher *s)
-{
-    error_norm_follow(stepper_control(s->steppers[!s->now]), stepper_control(s->steppers[s->now]));
 }
 
 /* Let the other method attempt the step that has just been made, and switch to it if it is better. */

@@ -24,6 +24,9 @@ bool switcher_add_exact(struct switcher *switcher, const struct stepper_options 
                         const struct method *method);
 void switcher_use_exact(struct switcher *switcher, bool exact);
 
+/* Begin with the implicit method, where the choice is free: the motion after the next reset starts as a stiff one. */
+void switcher_expect_stiff(struct switcher *switcher);
+
 int switcher_reset(struct switcher *switcher, struct counted_system *system, struct time_dd t,
                    const double *y, double *f, struct time_dd t_limit, double *h);
 

@@ -81,14 +81,14 @@ static bool links(const struct fbd_model *model, const struct constraint *source
     return source->body[1] != ground_body && model->bodies[source->body[1]].drive < 0;
 }
 
-/* Does a body lie on several points? */
-static bool has_several(const struct scene *scene, const struct constraint *source)
+/* Does its body lie on another point, too? */
+static bool has_others(const struct scene *scene, const struct constraint *source)
 {
-    for (const struct constraint *other = scene->constraints; other < source; other++)
-        if (other->kind == constraint_plane && source->kind == constraint_plane &&
-            other->body[0] == source->body[0])
-            return true;
-    return false;
+    bool any = false;
+    for (const struct constraint *other = scene->constraints; other < scene->constraints + scene->constraint_count;
+         other++)
+        any |= other != source && other->kind == constraint_plane && other->body[0] == source->body[0];
+    return any;
 }
 
 static bool may_be_linked(const struct fbd_model *model)
@@ -96,7 +96,7 @@ static bool may_be_linked(const struct fbd_model *model)
     const struct scene *scene = model->scene;
     bool linked = model->coupled_count > model->listed_count;
     for (size_t i = 0; i < scene->constraint_count; i++)
-        linked |= links(model, &scene->constraints[i]) || has_several(scene, &scene->constraints[i]);
+        linked |= links(model, &scene->constraints[i]);
     for (size_t b = 0; b < model->body_count; b++) linked |= model->bodies[b].parent >= 0;
     return linked;
 }
@@ -121,9 +121,10 @@ void planes_check(struct builder *builder)
     for (size_t i = 0; planes > 0 && i < model->plan.mode_count; i++) {
         const struct mode *mode = &model->plan.modes[i];
         const int others = planes - (mode->kind == mode_plane);
-        if (others == 0 || !holds_by_more(mode) || !may_be_linked(model)) continue;
         const struct constraint *source =
             mode->coupling >= 0 ? model->tree->couplings[mode->coupling].source : NULL;
+        if (others == 0 || !holds_by_more(mode)) continue;
+        if (!may_be_linked(model) && !(mode->kind == mode_plane && has_others(scene, source))) continue;
         const struct load *load = source ? NULL : model->loads[mode->load].source;
         refuse(builder, source ? source->name : load->name, source ? source->at : load->at);
         return;

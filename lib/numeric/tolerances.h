@@ -43,6 +43,10 @@ static const double distinct_part = 1e-6;
 /* Friction on a plane: the part of a run after which a body that starts from rest has a direction (plane_friction.h). */
 static const double soft_part = 1e-10;
 
+/* The speed, relative to that after this part of a run, up to which its direction is kept: below it the velocity has parts of
+ * the same size across that direction. */
+static const double soft_speeds = 1e3;
+
 /* ---- files */
 
 /* Digits of numbers in a file: directions and positions that agree in nine digits are meant to be equal. */

@@ -11,6 +11,12 @@
  *   a puck under a pull   F t: it breaks away at F t = mu_s m g, in the direction of the pull
  *   a puck thrown up      against a force F > mu m g: it stops after v/(F/m + c) and returns with F/m - c
  *   a puck that hits      another one at rest, of equal mass, with w: they go on with (1 - e) w/2 and (1 + e) w/2
+ *   a plank               on two points that spins about its centre on a turntable: it has its speed W after
+ *                         I |w - W|/(mu m g a)
+ *   a sled                on three points slides without turning, as a puck
+ *   a plank               pushed across beyond its second point turns about the first one where the moment about it is
+ *                         that of the limit of the second
+ *   two pucks on a rod    pushed alike break away at the limit of both
  *   a puck on a sled      on rails along its path: they have the common velocity v m/(m + M) after v/(c (1 + m/M))
  */
 #include <setjmp.h>
@@ -156,6 +162,94 @@ static void check_sled(struct checks *checks, struct random_numbers *numbers)
     trial_close(&trial);
 }
 
+/* On a turntable at constant speed, or on the ground. */
+static void check_spin(struct checks *checks, struct random_numbers *numbers)
+{
+    const double m = random_between(numbers, 0.1, 9), a = random_between(numbers, 0.1, 0.5);
+    const double I = m * a * a * random_between(numbers, 0.2, 2), mu = random_between(numbers, 0.1, 0.8);
+    const double omega = random_between(numbers, -9, 9), phi = random_between(numbers, -3, 3);
+    const double spin = random_perhaps(numbers, 0.5, -9, 9), t = I * fabs(omega - spin) / (mu * m * g * a);
+    char text[900];
+    snprintf(text, sizeof text,
+             "fbd: 1\nplane: horizontal\nbodies:\n  table: {mass: 1, inertia: 1, motion: {pivot: {theta: \"%.17g[rad/s]*t\"}}}\n  "
+             "plank: {mass: %.17g, inertia: %.17g, motion: planar, initial: {theta: %.17g, omega: %.17g}}\n"
+             "couplings: [plane_friction: {name: feet, body: plank, on: table, points: [[%.17g, 0], [%.17g, 0]], "
+             "kinetic: %.17g}]\nsimulate: {until: %.17g}\n",
+             spin, m, I, phi, omega, -a, a, mu, 1.5 * t);
+    struct trial trial = run_text(text);
+    const double theta = phi + spin * 1.5 * t + (omega - spin) * t / 2;
+    check_close(checks, "stops", trial_event(&trial, FBD_EVENT_STICK, "feet.1", 0), t, accuracy * t);
+    check_close(checks, "at once", trial_event(&trial, FBD_EVENT_STICK, "feet.2", 0), t, accuracy * t);
+    check_close(checks, "theta", trial_get(&trial, "plank.theta"), theta, accuracy * (1 + fabs(theta)));
+    check_close(checks, "omega", trial_get(&trial, "plank.omega"), spin, accuracy * 9);
+    trial_close(&trial);
+}
+
+/* Three points in any triangle: with the forces of equilibrium it does not turn. */
+static void check_sledge(struct checks *checks, struct random_numbers *numbers)
+{
+    const double mu = random_between(numbers, 0.1, 0.8), v = random_between(numbers, 0.5, 5);
+    const double phi = random_between(numbers, -3, 3), way = v * v / (2 * mu * g);
+    const double x = random_between(numbers, 0.1, 0.5), y = random_between(numbers, 0.1, 0.5);
+    const double s = random_between(numbers, -0.9, 0.9); /* G is within the triangle */
+    char text[900];
+    snprintf(text, sizeof text,
+             "fbd: 1\nplane: horizontal\nbodies:\n  sled: {mass: 2, inertia: 0.3, motion: planar, initial: {vx: "
+             "%.17g, vy: %.17g}}\ncouplings: [plane_friction: {body: sled, points: [[%.17g, %.17g], [%.17g, %.17g], "
+             "[%.17g, %.17g]], kinetic: %.17g}]\nsimulate: {until: %.17g}\n",
+             v * cos(phi), v * sin(phi), x, s * y, -x, y, -x, -y, mu, 1.5 * v / (mu * g));
+    struct trial trial = run_text(text);
+    check_close(checks, "stops", trial_event(&trial, FBD_EVENT_STICK, NULL, 0), v / (mu * g), accuracy * v);
+    check_close(checks, "x", trial_get(&trial, "sled.x"), way * cos(phi), accuracy * way);
+    check_close(checks, "theta", trial_get(&trial, "sled.theta"), 0, accuracy);
+    trial_close(&trial);
+}
+
+/* A push across a plank beyond its second point turns it about the first one. */
+static void check_pivot(struct checks *checks, struct random_numbers *numbers)
+{
+    const double m = random_between(numbers, 0.1, 9), a = random_between(numbers, 0.1, 0.3),
+                 b = random_between(numbers, 0.1, 0.3);
+    const double at = b + random_between(numbers, 0.01, 0.2), mu = random_between(numbers, 0.1, 0.8);
+    const double first = mu * m * g * b / (a + b), second = mu * m * g * a / (a + b);
+    const double F = second * (a + b) / (at + a), rate = m * random_between(numbers, 1, 9), t = F / rate;
+    char text[900];
+    if (second - F > 0.9 * first) return; /* it does not pivot */
+    snprintf(text, sizeof text,
+             "fbd: 1\nplane: horizontal\nbodies:\n  plank: {mass: %.17g, inertia: %.17g, motion: planar, forces: "
+             "[applied: {fy: \"%.17g[N/s]*t\", at: [%.17g, 0]}]}\ncouplings: [plane_friction: {name: feet, body: "
+             "plank, points: [[%.17g, 0], [%.17g, 0]], kinetic: %.17g}]\nsimulate: {until: %.17g}\n",
+             m, 0.3 * m * (a + b) * (a + b), rate, at, -a, b, mu, 1.001 * t);
+    struct trial trial = run_text(text);
+    const double theta = trial_get(&trial, "plank.theta");
+    check_close(checks, "pivots", trial_event(&trial, FBD_EVENT_BREAKAWAY, "feet.2", 0), t, accuracy * t);
+    check_that(checks, "the other one sticks", isnan(trial_event(&trial, FBD_EVENT_BREAKAWAY, "feet.1", 0)));
+    check_that(checks, "turns", theta > 0);
+    check_close(checks, "about it", trial_get(&trial, "plank.x") - a * cos(theta), -a, accuracy * a);
+    trial_close(&trial);
+}
+
+/* Two pucks on a rod break away together, whatever the direction of the push: they translate at F = 2 mu m g where it passes
+ * their middle. */
+static void check_pair(struct checks *checks, struct random_numbers *numbers)
+{
+    const double mu = random_between(numbers, 0.1, 0.8), phi = random_between(numbers, -3, 3);
+    const double psi = random_between(numbers, -3, 3), rate = random_between(numbers, 1, 9), t = 2 * mu * g / rate;
+    char text[900];
+    snprintf(text, sizeof text,
+             "fbd: 1\nplane: horizontal\nbodies:\n  a: {mass: 1, motion: particle, forces: [applied: {value: "
+             "\"%.17g[N/s]*t\", angle: %.17g}]}\n  b: {mass: 1, motion: particle, initial: {x: %.17g, y: %.17g}, forces: "
+             "[applied: {value: \"%.17g[N/s]*t\", angle: %.17g}]}\ncouplings:\n  - rod: {between: [a, b]}\n  - plane_friction: "
+             "{name: under_a, body: a, kinetic: %.17g}\n  - plane_friction: {name: under_b, body: b, kinetic: %.17g}\n"
+             "simulate: {until: %.17g}\n",
+             rate / 2, phi, cos(psi), sin(psi), rate / 2, phi, mu, mu, 1.5 * t);
+    struct trial trial = run_text(text);
+    const double v = (rate * (1.25 * t * t) / 2 - 2 * mu * g * t / 2) / 2;
+    check_close(checks, "breaks away", trial_event(&trial, FBD_EVENT_BREAKAWAY, NULL, 0), t, accuracy * t);
+    check_close(checks, "vx", trial_get(&trial, "b.vx"), v * cos(phi), accuracy * (1 + v));
+    trial_close(&trial);
+}
+
 /* Discs of equal mass. Their friction has no impulse, and none acts between them along the line of centres. */
 static void check_hit(struct checks *checks, struct random_numbers *numbers)
 {
@@ -186,7 +280,8 @@ static void motions_have_closed_forms(void **unused)
     static void (*const kinds[])(struct checks * checks,
                                  struct random_numbers * numbers) = {check_puck, check_belt,   check_coin,
                                                                      check_pull, check_return, check_sled,
-                                                                     check_hit};
+                                                                     check_hit,  check_spin,   check_sledge,
+                                                                     check_pivot, check_pair};
     const int draws = draws_of(40);
     struct random_numbers numbers = {7201};
     struct checks checks = {0};
@@ -197,12 +292,13 @@ static void motions_have_closed_forms(void **unused)
 
 /* ---- random scenes: a turntable, and bodies on it or on the ground */
 
-enum { most_bodies = 3, most_points = 2 };
+enum { most_bodies = 3, most_points = 4 };
 
 struct body {
     bool planar, on_table;
     int points;
-    double m, I, at[most_points], mu_s, mu_k; /* points on its x axis; each bears its share of the weight */
+    double m, I, mu_s, mu_k;
+    double x[most_points], y[most_points], N[most_points]; /* its points, and the force on each */
     double fx, fy, M;                         /* applied, times t */
 };
 
@@ -230,7 +326,8 @@ static struct vector slip_of(const struct system *s, const struct motion *at, in
 {
     const struct body *body = &s->bodies[b];
     const double *q = at->q[b], *v = at->v[b];
-    *arm = (struct vector){body->at[k] * cos(q[2]), body->at[k] * sin(q[2])};
+    *arm = (struct vector){body->x[k] * cos(q[2]) - body->y[k] * sin(q[2]),
+                           body->x[k] * sin(q[2]) + body->y[k] * cos(q[2])};
     *place = (struct vector){q[0] + arm->x, q[1] + arm->y};
     const double omega = body->on_table ? at->omega : 0;
     return (struct vector){v[0] - v[2] * arm->y + omega * place->y, v[1] + v[2] * arm->x - omega * place->x};
@@ -272,7 +369,7 @@ static double relax(const struct system *s, struct motion *at, int b, int k, dou
                          1 / body->m + i * r.x * r.x + j * R.x * R.x};
     double *p = at->p[b][k];
     const struct vector without = {u.x - W[0] * p[0] - W[1] * p[1], u.y - W[1] * p[0] - W[2] * p[1]};
-    const double c = (at->sticks[b][k] ? body->mu_s : body->mu_k) * body->m * g / body->points * h;
+    const double c = (at->sticks[b][k] ? body->mu_s : body->mu_k) * body->N[k] * h;
     const struct vector next = disc(W, without, c);
     const struct vector change = {next.x - p[0], next.y - p[1]};
     p[0] = next.x;
@@ -314,10 +411,23 @@ static void step(const struct system *s, struct motion *at, double h)
     for (int b = 0; b < s->count; b++)
         for (int k = 0; k < s->bodies[b].points; k++) {
             const struct body *body = &s->bodies[b];
-            const double c = (at->sticks[b][k] ? body->mu_s : body->mu_k) * body->m * g / body->points * h;
+            const double c = (at->sticks[b][k] ? body->mu_s : body->mu_k) * body->N[k] * h;
             at->sticks[b][k] = hypot(at->p[b][k][0], at->p[b][k][1]) < (1 - 1e-9) * c;
         }
     drift(s, at, h / 2);
+}
+
+/* Anywhere, or on the x axis; the weight in random parts. */
+static void draw_points(struct random_numbers *numbers, struct body *body, double reach)
+{
+    const bool plank = random_chance(numbers, 0.4);
+    double all = 0;
+    for (int k = 0; k < body->points; k++) {
+        body->x[k] = random_between(numbers, -reach, reach);
+        body->y[k] = plank ? 0 : random_between(numbers, -reach, reach);
+        all += body->N[k] = random_between(numbers, 0.1, 1);
+    }
+    for (int k = 0; k < body->points; k++) body->N[k] *= body->m * g / all;
 }
 
 static struct system draw_system(struct random_numbers *numbers, struct motion *at)
@@ -332,16 +442,15 @@ static struct system draw_system(struct random_numbers *numbers, struct motion *
         struct body *body = &s.bodies[b];
         body->planar = random_chance(numbers, 0.6);
         body->on_table = random_chance(numbers, 0.7);
-        body->points = 1;
+        body->points = body->planar ? 1 + (int)random_between(numbers, 0, 3.999) : 1;
         body->m = random_between(numbers, 0.3, 3);
         const double reach = body->planar ? random_between(numbers, 0.1, 0.5) : 0;
-        body->at[0] = -reach;
-        body->at[1] = reach;
+        draw_points(numbers, body, reach);
         body->I = body->planar ? body->m * reach * reach * random_between(numbers, 0.3, 1.5) : 1;
         body->mu_s = random_between(numbers, 0.1, 0.6);
         const double part = random_chance(numbers, 0.5) ? 1 : random_between(numbers, 0.5, 0.9);
         body->mu_k =
-            s.driven ? body->mu_s * part : body->mu_s; /* else it is refused (lib/model/plane_check.c) */
+            s.driven && body->points == 1 ? body->mu_s * part : body->mu_s; /* else refused (plane_check.c) */
         const double most = 2 * body->mu_s * body->m * g;
         body->fx = random_perhaps(numbers, 0.4, -most, most);
         body->fy = random_perhaps(numbers, 0.4, -most, most);
@@ -402,10 +511,10 @@ static struct trial open_system(const struct system *s, const struct motion *at,
         for (int k = 0; k < s->bodies[b].points; k++)
             end += snprintf(
                 end, 1000,
-                "  - plane_friction: {name: f%d%d, body: body%d, at: [%.17g, 0], on: %s, static: %.17g, "
+                "  - plane_friction: {name: f%d%d, body: body%d, at: [%.17g, %.17g], on: %s, static: %.17g, "
                 "kinetic: %.17g, normal: %.17g}\n",
-                b, k, b, s->bodies[b].at[k], s->bodies[b].on_table ? "table" : "ground", s->bodies[b].mu_s,
-                s->bodies[b].mu_k, s->bodies[b].m * g / s->bodies[b].points);
+                b, k, b, s->bodies[b].x[k], s->bodies[b].y[k], s->bodies[b].on_table ? "table" : "ground", s->bodies[b].mu_s,
+                s->bodies[b].mu_k, s->bodies[b].N[k]);
     snprintf(end, 1000, "simulate: {until: %.17g}\n", until);
     return trial_parse(text);
 }
@@ -457,7 +566,7 @@ static void check_system(struct checks *checks, struct random_numbers *numbers)
 static void scenes_agree_with_time_stepping(void **unused)
 {
     (void)unused;
-    const int draws = number_of("FBD_PLANES", draws_of(100));
+    const int draws = number_of("FBD_PLANES", draws_of(40));
     struct random_numbers numbers = {(uint64_t)number_of("FBD_SEED", 7202)};
     struct checks checks = {0};
     for (int i = 0; i < draws; i++) check_system(&checks, &numbers);
