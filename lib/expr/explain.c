@@ -212,20 +212,35 @@ void explain_name_after_number(struct parser *p, struct token number)
 
 /* ---- unknown names */
 
-/* Of the acceleration of a point: forces determine it, so none can depend on it. */
+/* True if a name, or its part behind the last dot, is one of these. */
+static bool ends_as(const char *name, const char *const *called, size_t count)
+{
+    const char *dot = strrchr(name, '.');
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(dot ? dot + 1 : name, called[i]) == 0) return true;
+    return false;
+}
+
+/* Of accelerations: forces determine them, so none can depend on them. */
 static const char *acceleration_hint(struct parser *p, const char *name)
 {
-    static const char *const called[] = {".ax", ".ay", ".proper_ax", ".proper_ay"};
+    static const char *const of_points[] = {"ax", "ay", "proper_ax", "proper_ay"},
+                             *const of_coordinates[] = {"v_dot",     "vx_dot",     "vy_dot",
+                                                        "omega_dot", "theta_ddot", "x_ddot",
+                                                        "y_ddot",    "a",          "alpha"};
     const char *dot = strrchr(name, '.');
-    bool acceleration = false;
-    for (size_t i = 0; dot && i < sizeof called / sizeof *called; i++)
-        acceleration |= strcmp(dot, called[i]) == 0;
-    if (!acceleration) return NULL;
-    return diag_hint(
-        p->errors,
-        "an acceleration follows from the forces and is known behind them only: `output: {points: "
-        "[%.*s]}` writes it",
-        (int)(dot - name), name);
+    const size_t letters = dot ? 0 : 2; /* `a` and `alpha` alone may be anything */
+    if (dot && ends_as(name, of_points, sizeof of_points / sizeof *of_points))
+        return diag_hint(
+            p->errors,
+            "an acceleration follows from the forces and is known behind them only: `output: {points: "
+            "[%.*s]}` writes it; of a prescribed motion write the second derivative of its expression",
+            (int)(dot - name), name);
+    if (ends_as(name, of_coordinates, sizeof of_coordinates / sizeof *of_coordinates - letters))
+        return "an acceleration follows from the forces and is known behind them only: `output` writes it; "
+               "of a "
+               "prescribed motion write the second derivative of its expression";
+    return NULL;
 }
 
 /* Of names that textbooks have for quantities which have others here, or which a value cannot depend on. */

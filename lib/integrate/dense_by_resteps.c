@@ -121,8 +121,19 @@ static enum belief try_degrees(struct resteps *inside, const struct resteps_sour
     return excess <= roundings * rounding_of(inside, source) ? polynomial : none;
 }
 
+/* A power of two near the distance to the nearest point: weights times that are finite, at any distance. */
+static double scale_of(const struct resteps *inside, double share)
+{
+    double least = 1;
+    int power;
+    for (int k = 0; k <= finest; k += inside->stride) least = fmin(least, fabs(share - inside->share[k]));
+    frexp(least, &power);
+    return ldexp(1, power);
+}
+
 static void interpolate(const struct resteps *inside, double share, double *y)
 {
+    const double scale = scale_of(inside, share);
     double weights = 0;
     memset(y, 0, inside->n * sizeof *y);
     for (int k = 0; k <= finest; k += inside->stride) {
@@ -133,7 +144,7 @@ static void interpolate(const struct resteps *inside, double share, double *y)
             return;
         }
         double sign = k / inside->stride % 2 == 0 ? 1 : -1;
-        double weight = (k == 0 || k == finest ? 0.5 : 1) * sign / from;
+        double weight = (k == 0 || k == finest ? 0.5 : 1) * scale * sign / from;
         weights += weight;
         for (size_t i = 0; i < inside->n; i++) y[i] += weight * point[i];
     }

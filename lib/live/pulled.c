@@ -53,11 +53,20 @@ static bool has_word(const struct edits *edits, const char *word)
     return false;
 }
 
+/* True if the text has the name, or that of one of its tables. */
+static bool is_taken(const struct edits *edits, const char *name)
+{
+    char tables[2][44];
+    for (size_t axis = 0; axis < 2; axis++)
+        snprintf(tables[axis], sizeof tables[axis], "%s_%c", name, "xy"[axis]);
+    return has_word(edits, name) || has_word(edits, tables[0]) || has_word(edits, tables[1]);
+}
+
 /* `pull`, or `pull_2`, `pull_3`, ... after earlier ones. */
 static void choose_name(struct pulling *pulling)
 {
     strcpy(pulling->name, "pull");
-    for (unsigned i = 2; has_word(&pulling->edits, pulling->name); i++)
+    for (unsigned i = 2; is_taken(&pulling->edits, pulling->name); i++)
         snprintf(pulling->name, sizeof pulling->name, "pull_%u", i);
 }
 

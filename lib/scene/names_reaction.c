@@ -220,11 +220,35 @@ static int part_of_guide(const struct body *body, const char *name)
     return -1;
 }
 
+/* The name of an entry `normal` or `friction`; else NULL. */
+static const char *name_of_guide(const struct node *entry)
+{
+    const struct pair *pair = entry->kind == node_map && entry->count == 1 ? &entry->pairs[0] : NULL;
+    const char *kind = pair ? pair->key : entry->kind == node_scalar ? entry->text : "";
+    if (strcmp(kind, "normal") != 0 && strcmp(kind, "friction") != 0) return NULL;
+    const struct pair *own = pair && pair->value->kind == node_map ? node_find(pair->value, "name") : NULL;
+    return own && own->value->kind == node_scalar ? own->value->text : kind;
+}
+
+/* Does the file list a normal force or friction of this name for the body, which may not be read yet? */
+static bool lists_guide(const struct reader *reader, int body, const char *name)
+{
+    const struct node *keys = reader->bodies->pairs[body].value;
+    const struct pair *forces = keys->kind == node_map ? node_find(keys, "forces") : NULL;
+    const bool list = forces && forces->value->kind == node_list;
+    const size_t count = list ? forces->value->count : forces != NULL;
+    for (size_t i = 0; i < count; i++) {
+        const char *own = name_of_guide(list ? forces->value->items[i] : forces->value);
+        if (own && strcmp(own, name) == 0) return true;
+    }
+    return false;
+}
+
 struct symbol joint_reaction_symbol(const struct names *names, int body, const char *name, struct pos at)
 {
     const struct body *owner = &names->reader->scene->bodies[body];
-    const bool guided = names->reader->drafts[body].has_normal && strcmp(name, "normal") == 0;
-    if (names->place == place_load && (guided || part_of_pin(owner, name) >= 0))
+    if (names->place == place_load &&
+        (lists_guide(names->reader, body, name) || part_of_pin(owner, name) >= 0))
         return misplaced(names, name, at);
     if (names->place != place_event) return unknown;
     int part = part_of_pin(owner, name);

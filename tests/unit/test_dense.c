@@ -16,6 +16,7 @@
 #include <string.h>
 
 #include "integrate/dense.h"
+#include "integrate/dense_by_resteps.h"
 #include "integrate/history.h"
 #include "integrate/linear.h"
 #include "integrate/method.h"
@@ -371,6 +372,39 @@ static void a_step_back_in_time_is_a_step(void **state)
     assert_true(forward[0] < 1e-10 && forward[1] < 1e-8);
 }
 
+/* y = 1 + s - s^3 in a step whose points are samples: also as near to an end as numbers are. */
+static bool sample_of_a_cubic(void *unused, double share, double *y)
+{
+    (void)unused;
+    *y = 1 + share - share * share * share;
+    return true;
+}
+
+static double no_excess(void *unused, const double *deviation)
+{
+    (void)unused;
+    (void)deviation;
+    return 0;
+}
+
+static void a_step_has_a_state_beside_its_ends(void **state)
+{
+    static const double shares[] = {DBL_TRUE_MIN, DBL_MIN, 1e-30, 0.3, 1 - DBL_EPSILON, 1};
+    const struct resteps_source source = {.sample = sample_of_a_cubic, .excess = no_excess};
+    const double ends[] = {1, 1};
+    struct resteps *inside = resteps_alloc(1);
+    (void)state;
+    assert_non_null(inside);
+    resteps_set(inside, &ends[0], &ends[1]);
+    for (size_t i = 0; i < sizeof shares / sizeof *shares; i++) {
+        double y, exactly;
+        sample_of_a_cubic(NULL, shares[i], &exactly);
+        assert_true(resteps_eval(inside, &source, shares[i], &y));
+        assert_true(fabs(y - exactly) <= 8 * DBL_EPSILON);
+    }
+    resteps_free(inside);
+}
+
 static void the_last_points_give_polynomials_exactly(void **state)
 {
     (void)state;
@@ -410,6 +444,7 @@ int main(void)
         cmocka_unit_test(powers_over_a_piece_are_the_same_polynomial),
         cmocka_unit_test(rounding_of_a_large_coordinate_is_not_seen_in_the_velocity),
         cmocka_unit_test(a_step_back_in_time_is_a_step),
+        cmocka_unit_test(a_step_has_a_state_beside_its_ends),
         cmocka_unit_test(the_last_points_give_polynomials_exactly),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

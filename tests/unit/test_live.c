@@ -198,6 +198,23 @@ static void a_pull_is_a_force_with_a_point_and_a_path(void **unused)
     pulled_text_has(brackets, "pull", in_brackets, sizeof in_brackets / sizeof *in_brackets);
 }
 
+/* `pull` is free, but not the name of one of its tables: they all have another one. */
+static void a_pull_has_tables_of_its_own(void **unused)
+{
+    (void)unused;
+    static const char *const tables[] = {"pull_x", "pull_y"}, *const parts[] = {"applied: {name: pull_2, ",
+                                                                                "pull_2_x: {"};
+    for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
+        char text[400];
+        snprintf(text, sizeof text,
+                 "fbd: 1\ntables: {%s: [[0, 0], [1, 1]]}\nbodies: {b: {mass: 1 kg, motion: slide, forces: "
+                 "[applied: "
+                 "\"%s(t)\"]}}\nsimulate: {until: 1 s}\n",
+                 tables[i], tables[i]);
+        pulled_text_has(text, "b", parts, 2);
+    }
+}
+
 static void every_way_to_list_forces_has_a_place_for_a_pull(void **unused)
 {
     (void)unused;
@@ -325,6 +342,7 @@ int main(void)
         cmocka_unit_test(entries_in_brackets_are_cut_out),
         cmocka_unit_test(what_the_file_does_not_list_cannot_be_left_out),
         cmocka_unit_test(a_pull_is_a_force_with_a_point_and_a_path),
+        cmocka_unit_test(a_pull_has_tables_of_its_own),
         cmocka_unit_test(every_way_to_list_forces_has_a_place_for_a_pull),
         cmocka_unit_test(what_cannot_be_pulled_is_refused_by_name),
         cmocka_unit_test(masses_and_slopes_are_found_where_they_are_written),
