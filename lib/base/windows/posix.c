@@ -189,7 +189,7 @@ char *mkdtemp(char *name)
     return NULL;
 }
 
-/* Lock a byte far behind every content: other programs may read and write what is there. */
+/* Lock a byte far behind every content: other programs may read and write the content. */
 static int lock_file(HANDLE file)
 {
     OVERLAPPED far_behind = {.OffsetHigh = 1u << 30};
