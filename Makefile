@@ -243,6 +243,12 @@ pages: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	FBD_ALL_PAGES=1 FBD_TEST_TIMEOUT=10 .ci/test $(BUILD) --no-rebuild page
 
+# What axe-core, from npm, finds in the pages; some minutes. After `make live` also in live pages and sheets to learn by.
+axe: all
+	.ci/install-packages axe
+	npm install --silent --no-audit --no-fund --prefix $(BUILD)/axe axe-core@4.14.1
+	FBD_SOURCE_ROOT=$(CURDIR) FBD_RUN=$(BUILD)/apps/fbd-run FBD_AXE=$(BUILD)/axe/node_modules/axe-core/axe.min.js tests/page/axe.py
+
 # The same for other systems: one file with GSL and libyaml in it, build-wheel/fbd_mechanics-VERSION-....whl.
 wheel: all
 	.ci/install-packages run python
@@ -349,5 +355,5 @@ $(BUILD)-count/build.ninja:
 	.ci/install-packages run test lint
 	touch $@
 
-.PHONY: all run reference engines portability satellites mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects instructions error-bars event-bars events late-times implicit tighter methods impacts failures gallery python wheel sdist sdist-check fmu-importer live live-check lsp-check site check-format format lint install uninstall dist dist-check recipes recipes-check pages deb deb-check clean
+.PHONY: all run reference engines portability satellites mutants generators compare test sanitize tsan valgrind faults cross-check fuzz bench measurements effects instructions error-bars event-bars events late-times implicit tighter methods impacts failures gallery python wheel sdist sdist-check fmu-importer live live-check axe lsp-check site check-format format lint install uninstall dist dist-check recipes recipes-check pages deb deb-check clean
 .SECONDARY:

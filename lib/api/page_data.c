@@ -95,13 +95,17 @@ static void write_shape(struct text *text, const fbd_shape *part)
     text_add(text, "}");
 }
 
-static void write_arrow(struct text *text, const struct record_of_arrow *arrow)
+static void write_arrow(struct text *text, const struct fbd_model *model, int b,
+                        const struct record_of_arrow *arrow)
 {
     text_add(text, "\n{");
     json_text_member(text, "name", arrow->name);
     json_columns_member(text, "arrow", arrow->arrow, 5);
     json_columns_member(text, "force", arrow->force, arrow->force_count);
-    text_printf(text, "\"reaction\":%s,\"work\":%d}", arrow->load < 0 ? "true" : "false", arrow->work);
+    const char *drawing = drawing_of_force(model, b, arrow->name, arrow->load);
+    const bool coloured =
+        strstr("gravity reaction friction", drawing) != NULL; /* of its own, in the style sheet */
+    text_printf(text, "\"hue\":\"%s\",\"work\":%d}", coloured ? drawing : "applied", arrow->work);
 }
 
 /* The equations of the start, for their symbols. */
@@ -353,7 +357,7 @@ static void write_body(struct text *text, struct symbolic *symbolic, const struc
     text_add(text, "],\"arrows\":[");
     for (size_t i = 0; i < columns->arrow_count; i++) {
         json_comma(text, i);
-        write_arrow(text, &columns->arrows[i]);
+        write_arrow(text, model, (int)b, &columns->arrows[i]);
     }
     /* the frame of a pivot is at the axis: its points are relative to that */
     text_add(text, "],\"pin\":");

@@ -102,11 +102,11 @@ static fbd_mass mass_of(const struct fbd_model *model, int b, const struct insta
 /* ---- forces */
 
 /* Its origin, with the arrow itself and its symbol. */
-static fbd_force force_of(const struct fbd_model *model, const struct arrow *arrow,
+static fbd_force force_of(const struct fbd_model *model, int b, const struct arrow *arrow,
                           const struct force_symbol *symbol, struct vec about, struct arena *arena)
 {
     fbd_force force = {.arrow = public_arrow(arrow, about),
-                       .kind = "reaction",
+                       .kind = drawing_of_force(model, b, arrow->name, arrow->load),
                        .slide = -1,
                        .symbol = symbol_now(symbol),
                        .printed = symbol_printed(symbol_now(symbol), arena),
@@ -114,7 +114,6 @@ static fbd_force force_of(const struct fbd_model *model, const struct arrow *arr
     if (arrow->load < 0) return force;
     const struct model_load *load = &model->loads[arrow->load];
     const enum load_kind kind = load->source->kind;
-    force.kind = load_law(load->source)->drawing;
     const bool listed =
                    (size_t)arrow->load < model->listed_count, /* a coupling is no surface under the body */
         on_line = model->bodies[load->body].joint->path == path_line;
@@ -136,7 +135,7 @@ static bool take_forces(struct fbd_view *view, const struct fbd_state *state, in
     seen->forces = ARENA_ARRAY(&view->arena, seen->force_count + 1, fbd_force);
     if (!seen->forces) return false;
     for (size_t i = 0; i < seen->force_count; i++) {
-        seen->forces[i] = force_of(model, &arrows[i], &symbols[i], about, &view->arena);
+        seen->forces[i] = force_of(model, b, &arrows[i], &symbols[i], about, &view->arena);
         if (!seen->forces[i].printed) return false;
     }
     return true;

@@ -107,9 +107,14 @@ static struct block *list_general(struct making *making)
     for (size_t i = 0; i < sizeof always / sizeof *always; i++)
         document_cell(making->document, list, always[i]);
     const double g = hypot(scene.gravity[0], scene.gravity[1]);
-    document_cell_format(making->document, list, "Gravity is uniform: %s%s.",
-                         making_value(making, g, acceleration, note_digits),
-                         scene.gravity[0] == 0 && scene.gravity[1] < 0 ? ", downward" : "");
+    if (scene.pressing > 0)
+        document_cell_format(making->document, list,
+                             "The plane is horizontal: gravity, %s, presses the bodies on it.",
+                             making_value(making, scene.pressing, acceleration, note_digits));
+    else
+        document_cell_format(making->document, list, "Gravity is uniform: %s%s.",
+                             making_value(making, g, acceleration, note_digits),
+                             scene.gravity[0] == 0 && scene.gravity[1] < 0 ? ", downward" : "");
     return list;
 }
 
@@ -121,7 +126,10 @@ static void list_laws(struct making *making, struct block *list, const char *exp
     } laws[] = {
         {"dry friction",
          "Dry friction follows Coulomb's law: up to the static coefficient times the normal force at "
-         "rest, the kinetic one times it in motion, whatever the speed."},
+         "rest, the kinetic one times it in motion. Coefficients are constant, except where the file gives "
+         "them by expressions."},
+        {"mass that varies",
+         "Masses that vary do so as the file gives them; the data have them at the start."},
         {"contact",
          "Impacts take no time; each changes velocities by impulses according to the restitution and the "
          "friction of the contact."},

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * The data of a note: parameters, bodies, coefficients, connections, start values.
+ * The data of a note: parameters, bodies, forces, connections, start values.
  */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
-#include "note/note.h"
+#include "note/given.h"
 
 /* ---- parameters */
 
@@ -95,7 +95,7 @@ static const char *shape_of(struct making *making, size_t body)
     return making_take(making);
 }
 
-static const char *motion_of(struct making *making, const fbd_body *body)
+static const char *motion_of(struct making *making, const struct given *given, const fbd_body *body)
 {
     static const char *const motions[] = {
         [FBD_MOTION_SLIDE] = "slides on a line",
@@ -109,10 +109,11 @@ static const char *motion_of(struct making *making, const fbd_body *body)
     text_add(text, motions[body->motion]);
     if (body->carrier != FBD_GROUND)
         text_printf(text, " of %s", fbd_model_body_name(making->model, (size_t)body->carrier));
+    given_motion(given, body->name, text);
     return making_take(making);
 }
 
-static void list_bodies(struct making *making)
+static void list_bodies(struct making *making, const struct given *given)
 {
     static const char *const heads[] = {"Body", "Motion", "Mass", "Moment of inertia about G", "Shape"};
     struct document *document = making->document;
@@ -122,7 +123,7 @@ static void list_bodies(struct making *making)
         const fbd_body body = fbd_model_body(making->model, b);
         const fbd_mass mass = fbd_view_mass(making->view, b);
         document_cell(document, table, body.name);
-        document_cell(document, table, motion_of(making, &body));
+        document_cell(document, table, motion_of(making, given, &body));
         document_cell_format(document, table, "%s = %s", mass.printed,
                              making_value(making, mass.mass, units.mass, note_digits));
         document_cell(document, table,
@@ -131,39 +132,7 @@ static void list_bodies(struct making *making)
     }
 }
 
-/* ---- coefficients */
-
-static void friction_row(struct making *making, struct block **table, const char *body,
-                         const fbd_listed_force *force)
-{
-    static const char *const heads[] = {"Body", "Friction", "Static", "Kinetic", "Speed of the surface"};
-    const char *speed = strcmp(fbd_model_scene(making->model).units, "US") == 0 ? "ft/s" : "m/s";
-    struct document *document = making->document;
-    if (!*table) *table = document_table(document, "coefficients of friction", "llrrr", heads);
-    document_cell(document, *table, body);
-    document_cell(document, *table, force->arrow.name);
-    document_cell(document, *table, making_number(making, force->mu_s, note_digits));
-    document_cell(document, *table, making_number(making, force->mu_k, note_digits));
-    document_cell(document, *table, making_value(making, force->surface_speed, speed, note_digits));
-}
-
-static void list_frictions(struct making *making)
-{
-    struct block *table = NULL;
-    for (size_t b = 0; b < fbd_model_body_count(making->model); b++) {
-        const size_t room = fbd_state_forces(making->start, b, NULL, 0);
-        fbd_listed_force *forces =
-            room < SIZE_MAX ? ARENA_ARRAY(&making->document->arena, room + 1, fbd_listed_force) : NULL;
-        if (!forces) {
-            making->document->arena.failed = true;
-            return;
-        }
-        const size_t count = fbd_state_forces(making->start, b, forces, room);
-        for (size_t i = 0; i < count && i < room; i++)
-            if (forces[i].mu_s > 0 || forces[i].mu_k > 0)
-                friction_row(making, &table, fbd_model_body_name(making->model, b), &forces[i]);
-    }
-}
+/* ---- couplings and contacts */
 
 static const char *ends_of(struct making *making, const fbd_connection *connection)
 {
@@ -176,30 +145,22 @@ static const char *ends_of(struct making *making, const fbd_connection *connecti
     return making_take(making);
 }
 
-static const char *values_of(struct making *making, const fbd_connection *connection)
+/* The keys of the file; a length that follows from the start. */
+static const char *values_of(struct making *making, const struct given *given,
+                             const fbd_connection *connection)
 {
-    const bool us = strcmp(fbd_model_scene(making->model).units, "US") == 0;
-    const char *length = fbd_model_units(making->model).length;
+    const bool keeps = strcmp(connection->kind, "rope") == 0 || strcmp(connection->kind, "rod") == 0;
     struct text *text = making_begin(making);
-    if (strcmp(connection->kind, "spring") == 0) {
-        text_add(text, "stiffness ");
-        value_write(text, connection->stiffness, us ? "lbf/ft" : "N/m", note_digits, false);
-        text_add(text, ", free length ");
-        value_write(text, connection->free_length, length, note_digits, false);
-    } else if (strcmp(connection->kind, "damper") == 0) {
-        text_add(text, "coefficient ");
-        value_write(text, connection->coefficient, us ? "lbf*s/ft" : "N*s/m", note_digits, false);
-    } else if (isfinite(connection->length) && connection->length > 0) {
-        text_add(text, "length ");
-        value_write(text, connection->length, length, note_digits, false);
-    }
+    given_connection(given, connection->name, text);
+    if (keeps && isnan(connection->length))
+        text_add(text, text->length > 0 ? ", length of the start" : "length of the start");
     return making_take(making);
 }
 
-static void list_connections(struct making *making)
+static void list_connections(struct making *making, const struct given *given)
 {
     enum { most_listed = 60 };
-    static const char *const heads[] = {"Connection", "Kind", "Between", "Values"};
+    static const char *const heads[] = {"Connection", "Kind", "Between", "Given"};
     struct document *document = making->document;
     const size_t count = fbd_model_connection_count(making->model);
     struct block *table =
@@ -209,7 +170,7 @@ static void list_connections(struct making *making)
         document_cell(document, table, connection.name);
         document_cell(document, table, connection.kind);
         document_cell(document, table, ends_of(making, &connection));
-        document_cell(document, table, values_of(making, &connection));
+        document_cell(document, table, values_of(making, given, &connection));
     }
     if (count > most_listed)
         document_paragraph(document, "And %zu more, which the model file lists.", count - most_listed);
@@ -237,11 +198,16 @@ static void list_starts(struct making *making)
 
 void note_data(struct making *making)
 {
+    const struct given *given = given_open(making);
     document_heading(making->document, 2, "Data");
     list_parameters(making);
-    list_bodies(making);
-    list_frictions(making);
-    list_connections(making);
+    if (!given) {
+        making->document->arena.failed = true;
+        return;
+    }
+    list_bodies(making, given);
+    given_forces(making, given);
+    list_connections(making, given);
     list_starts(making);
     document_paragraph(making->document,
                        "The model file in the appendix contains all data, with the units in which they "

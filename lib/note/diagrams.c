@@ -123,7 +123,8 @@ void note_equations(struct making *making)
         making->document,
         "Each equation of motion in letters, then with the numbers at t = 0: inertia times acceleration "
         "is the sum of the forces, or moments. G is the centre of mass, O the axis of a pivot; the letters "
-        "are those of the figures.");
+        "are those of the figures. N is positive where it presses, f where it acts against +x, T and S where "
+        "they pull, M counter-clockwise; the arrows point as the forces do at that time.");
     for (int i = 0; i < note_formats; i++) {
         const fbd_equations_options options = {.size = sizeof options,
                                                .format = formats[i],

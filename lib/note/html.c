@@ -119,8 +119,10 @@ static void write_table(struct text *text, const struct block *block)
     const struct table *table = &block->table;
     const size_t count = strlen(table->columns);
     size_t column = 0;
-    text_printf(text, "<div class=\"scroll\"><table%s>\n<caption>Table %zu: ",
-                is_short(block, count) ? " class=\"whole\"" : "", block->number);
+    text_printf(text, "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"Table %zu\">",
+                block->number);
+    text_printf(text, "<table%s>\n<caption>Table %zu: ", is_short(block, count) ? " class=\"whole\"" : "",
+                block->number);
     svg_escape(text, block->text);
     text_add(text, "</caption>\n");
     write_heads(text, table, count);

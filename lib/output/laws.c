@@ -92,6 +92,12 @@ static void write_drag(struct text *text, const struct load *load, const struct 
         text_add(text, rate);
 }
 
+static const char *formula_of(const struct load *load)
+{
+    const struct law *law = load_law(load);
+    return law->centered && load->free_length == 0 ? law->centered : law->formula;
+}
+
 /* Write the formula of a row of the language (scene/law.h). */
 static void write_formula(struct text *text, const char *formula, const struct coordinate *q, int part)
 {
@@ -142,5 +148,5 @@ void law_write(struct text *text, const struct fbd_model *model, const struct eq
     if (load->kind == load_drag)
         write_drag(text, load, body, part, q->rate_name);
     else if (load_law(load)->formula && acts_along(load, body, part))
-        write_formula(text, load_law(load)->formula, q, part);
+        write_formula(text, formula_of(load), q, part);
 }

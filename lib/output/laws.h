@@ -18,7 +18,7 @@ struct law_names {
     const char *mass, *along, *L;
 };
 
-/* Write "-m g sin(along)", "-k (x - x0)"; writes no text for a term that has no such law or is zero by it.
+/* Write "-m g sin(along)", "-k (x - x0)", "-k x" where x0 = 0; writes no text for a term that has no such law or is zero by it.
  * For a body cut free, only the weight has one. */
 void law_write(struct text *text, const struct fbd_model *model, const struct equation *equation, size_t term,
                const struct law_names *names);

@@ -34,6 +34,10 @@ struct coupling_place {
 };
 bool coupling_of_force(const struct fbd_model *model, int b, const char *name, struct coupling_place *place);
 
+/* The class of the drawing of an arrow on body b by its name and load (-1 for none): that of its law, "friction" along the
+ * surface of a contact or roll, else "reaction". */
+const char *drawing_of_force(const struct fbd_model *model, int b, const char *name, int load);
+
 /* The symbols of each body's arrows, in the order of diagram_fill: symbols[body][arrow]. NULL when memory is out. */
 const struct force_symbol *const *symbols_of_forces(const struct fbd_state *state, struct arena *arena);
 

@@ -38,8 +38,9 @@ struct law {
 
     /* The component along its coordinate in a few symbols, `#` for the coordinate, `@` for its rate and `$`
      * for the letter of the axis; and the law where it acts `between` two points. NULL: none, or one that
-     * depends on its keys. */
+     * depends on its keys. `centered`: the formula where `neutral` is zero. */
     const char *formula;
+    const char *centered;
     const char *between;
 
     /* True if it can act across a slide in the direction `along`. NULL: never. */

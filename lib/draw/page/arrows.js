@@ -77,14 +77,6 @@ function arrowTo(point, dx, dy, colour, key) {
   return [x, y];
 }
 
-// The name of an arrow's colour in the style sheet, the same in scene, equations and plots.
-function arrowHue(arrow) {
-  const part = arrow.name.split(".").pop(); // the reaction on another body is called body.normal
-  if (part.startsWith("friction")) return "friction";
-  if (arrow.reaction || part === "normal") return "reaction";
-  return arrow.name === "gravity" ? "gravity" : "applied";
-}
-
 function arrowKey(body, arrow) {
   return `${body.name}:${arrow.name}`;
 }
@@ -112,7 +104,7 @@ function drawForces(body, frame, t, row, shows) {
   const length = pixelsPerForce(), labelled = shows.names || shows.values;
   let couples = 0;
   for (const arrow of body.arrows) {
-    const [fx, fy, px, py, couple] = arrow.arrow.map((c) => valueAt(c, t, row)), colour = tone[arrowHue(arrow)], key = arrowKey(body, arrow);
+    const [fx, fy, px, py, couple] = arrow.arrow.map((c) => valueAt(c, t, row)), colour = tone[arrow.hue], key = arrowKey(body, arrow);
     const size = Math.hypot(fx, fy), least = roundingOf(run.units.force), from = toScreen(place(frame, px, py));
     const tip = size > least ? arrowTo(from, fx * length, -fy * length, colour, key) : null;
     if (tip && labelled) wantLabel(key, labelOf(arrow.name, size, run.units.force, shows), ...tip, fx / size, -fy / size, colour);

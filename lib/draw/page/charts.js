@@ -14,7 +14,7 @@ function findMeanings() {
   meanings.clear();
   for (const body of run.bodies) {
     for (const c of [...body.coordinates, ...body.rates]) meanings.set(c, { hue: `curve-${body.index % curveCount}` });
-    for (const arrow of body.arrows) for (const c of arrow.force) meanings.set(c, { hue: arrowHue(arrow), key: arrowKey(body, arrow) });
+    for (const arrow of body.arrows) for (const c of arrow.force) meanings.set(c, { hue: arrow.hue, key: arrowKey(body, arrow) });
   }
   ["velocity", "gravity", "applied", "reaction"].forEach((hue, i) => meanings.set(run.energy[i], { hue }));
 }

@@ -85,8 +85,8 @@ function prepareTies() {
     if (coupling.kind === "gear") prepareGear(coupling);
   }
   run.bodies.forEach((body, index) => {
-    const shapeless = body.motion !== "slide" && body.motion !== "particle" && body.shapes.every((shape) => shape.kind === "unknown");
-    body.joints = shapeless ? jointsOf(index) : [];
+    body.joints = body.motion !== "slide" && body.motion !== "particle" && !isSized(body) ? jointsOf(index) : [];
+    if (body.joints.length === 1 && body.shapes[0]?.kind === "unknown" && !Math.hypot(...body.G)) body.wheel = body.wheel || { point: body.G };
   });
 }
 
@@ -156,7 +156,7 @@ function drawStillTies() {
       else if (coupling.kind === "rope" && last) hatch([x - 16, y], [x + 16, y], 0, -1);
       if (coupling.kind === "rope" && !end.wound) dot(x, y, 3.5, tone.soft);
       else if (coupling.kind === "weld") hatch([x - 16, y], [x + 16, y], 0, 1);
-      else if (!end.wound) drawBearing(x, y, 1);
+      else if (coupling.kind === "pin" || coupling.kind === "rod") drawBearing(x, y, 1);
     });
   }
 }
@@ -209,7 +209,7 @@ function drawShapeless(body, frame) {
   if (body.wedge) {
     drawPlate(wedgeCorners(body).map((point) => toScreen(place(frame, ...point))), body);
   } else if (body.wheel) {
-    const [x, y] = toScreen(place(frame, ...body.wheel.point)), r = body.wheel.radius * view.scale;
+    const [x, y] = toScreen(place(frame, ...body.wheel.point)), r = body.wheel.radius * view.scale || view.block;
     drawWheel(x, y, r, 0, tintOf(body));
     drawSectors(x, y, r, 0, frame, tintOf(body, "marks"));
   } else if (body.joints.length > 1) {
@@ -219,6 +219,7 @@ function drawShapeless(body, frame) {
     fillWith(tintOf(body));
     strokeWith(tintOf(body), 6);
     pen.lineJoin = "miter";
+    for (const shape of body.shapes) if (shape.kind === "dot") drawShape(body, frame, shape);
   }
   return body.wedge || body.wheel || body.joints.length > 1;
 }

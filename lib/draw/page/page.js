@@ -51,7 +51,7 @@ function markTerm(node, equation, name) {
   const found = arrowBy(`${equation.body}:${name}`);
   if (!found) return node;
   node.setAttribute("data-arrow", arrowKey(found.body, found.arrow));
-  node.style.color = `var(--${arrowHue(found.arrow)})`;
+  node.style.color = `var(--${found.arrow.hue})`;
   return node;
 }
 

@@ -67,7 +67,7 @@ function showCard(t) {
   if (sizeOf(couple) > roundingOf(moment)) lines.push([phrase("moment"), read(couple), moment]);
   if (arrow.work >= 0) lines.push([phrase("work"), read(arrow.work), energy]);
   element("card-title").textContent = phrase("arrow-on", quantity(arrow.name), body.name);
-  element("card-title").style.color = `var(--${arrowHue(arrow)})`;
+  element("card-title").style.color = `var(--${arrow.hue})`;
   table.textContent = "";
   for (const [name, value, units] of lines) addRow(table, [[name], [show(value), true], [unit(units)]]);
 }

@@ -84,7 +84,7 @@ function gripOfStart(from) {
 // The arrow of a weight grows by the same share as the mass, to a twentieth of it at least. It is held by its outer half.
 function gripOfMass(from, reach) {
   const key = arrowAt(from, reach), found = arrowBy(key);
-  const slider = found && arrowHue(found.arrow) === "gravity" && sliderOf(`masses.${found.body.name}`, controlNamed("masses", found.body.name));
+  const slider = found && found.arrow.hue === "gravity" && sliderOf(`masses.${found.body.name}`, controlNamed("masses", found.body.name));
   if (!slider) return null;
   const [x1, y1, x2, y2] = drawn.arrows.find((arrow) => arrow[5] === key), dx = x2 - x1, dy = y2 - y1;
   const share = (at, x, y) => ((at[0] - x) * dx + (at[1] - y) * dy) / (dx * dx + dy * dy), mass = controlNamed("masses", found.body.name).value;
