@@ -18,10 +18,10 @@ struct twist {
 struct surface {
     struct limit_point *points;
     size_t count;
-    double length;      /* the largest arm */
-    struct twist w;     /* of magnitude 1 */
-    struct twist b[2];  /* the directions normal to w */
-    double smooth;      /* e */
+    double length;     /* the largest arm */
+    struct twist w;    /* of magnitude 1 */
+    struct twist b[2]; /* the directions normal to w */
+    double smooth;     /* e */
 };
 
 static double dot(struct twist a, struct twist b)
@@ -123,7 +123,8 @@ static struct twist descend(const struct surface *of, struct twist v)
         const double phi = phi_of(of, v);
         if (!(slope < -negligible_part * negligible_part * phi)) return v;
         int half = 0;
-        while (half++ < most_halves && !(phi_of(of, sum(v, size, way)) <= phi + enough * size * slope)) size /= 2;
+        while (half++ < most_halves && !(phi_of(of, sum(v, size, way)) <= phi + enough * size * slope))
+            size /= 2;
         if (half > most_halves) return v;
         v = sum(v, size, way);
     }
