@@ -116,7 +116,7 @@ static struct twist newton_step(const struct surface *of, struct twist v, double
 static struct twist descend(const struct surface *of, struct twist v)
 {
     enum { most_steps = 30, most_halves = 30 };
-    const double enough = 1e-4; /* of the decrease along the slope (Armijo) */
+    const double enough = 0.1; /* of the decrease along the slope (Armijo) */
     for (int step = 0; step < most_steps; step++) {
         double slope, size = 1;
         const struct twist way = newton_step(of, v, &slope);
@@ -133,9 +133,8 @@ static struct twist descend(const struct surface *of, struct twist v)
 
 static struct twist smooth_least(struct surface *of)
 {
-    const double last = 1e-10; /* below it, of a velocity of 1, the twist is about a point */
     struct twist v = of->w;
-    for (of->smooth = 1; of->smooth > last; of->smooth /= 10) v = descend(of, v);
+    for (of->smooth = 1; of->smooth > negligible_sum; of->smooth /= 10) v = descend(of, v);
     return v;
 }
 
