@@ -31,7 +31,8 @@ double friction_coefficient(const struct fbd_model *model, int pair, const struc
     if (variation) *variation = d_mu;
     if (coupling >= 0 && model->tree->couplings[coupling].kind == constraint_plane) {
         const struct coupling *plane = &model->tree->couplings[coupling];
-        double d_N = 0, N = along ? formula_along(&plane->normal, at, along, &d_N) : formula_value(&plane->normal, at);
+        double d_N = 0,
+               N = along ? formula_along(&plane->normal, at, along, &d_N) : formula_value(&plane->normal, at);
         if (variation) *variation = plane->share * (d_mu * N + value * d_N);
         return plane->share * value * N;
     }

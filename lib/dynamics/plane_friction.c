@@ -77,8 +77,8 @@ static bool plane_slips(const struct tree *tree, const struct instant *at, int i
 bool planes_are_one(const struct tree *tree, int one, int other)
 {
     const struct coupling *a = &tree->couplings[one], *b = &tree->couplings[other];
-    return a->kind == constraint_plane && b->kind == constraint_plane &&
-           a->end[0].link == b->end[0].link && a->end[1].link == b->end[1].link;
+    return a->kind == constraint_plane && b->kind == constraint_plane && a->end[0].link == b->end[0].link &&
+           a->end[1].link == b->end[1].link;
 }
 
 struct plane_speed plane_speed(const struct fbd_model *model, const struct tree_work *work, int index)

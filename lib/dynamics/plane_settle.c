@@ -46,8 +46,8 @@ static bool follow(struct fbd_state *state, const struct decided *decided, int p
     const int index = mode_of(state, pair)->coupling;
     const struct vec before = state->tree->couplings[index].e;
     const bool same = state->slip[pair] == slip_plus;
-    const bool slow = plane_speed(state->model, state->tree, index).slip <=
-                      soft_speeds * state->tree->couplings[index].nu;
+    const bool slow =
+        plane_speed(state->model, state->tree, index).slip <= soft_speeds * state->tree->couplings[index].nu;
     if (decided && same && slow) return true;
     state->slip[pair] = slip_plus;
     plane_aim(state->model, state->tree, index);
@@ -290,7 +290,8 @@ static bool sets_out(const struct fbd_state *state, int index)
     const struct coupling *coupling = &state->model->tree->couplings[index];
     return coupling->kind == constraint_plane && state->slip[coupling->pair] != stick &&
            !coupling_is_gone(state->tree, coupling) &&
-           plane_speed(state->model, state->tree, index).slip <= soft_speeds * state->tree->couplings[index].nu;
+           plane_speed(state->model, state->tree, index).slip <=
+               soft_speeds * state->tree->couplings[index].nu;
 }
 
 bool planes_set_out(struct fbd_state *state)

@@ -162,8 +162,8 @@ static double bound_along(const struct rest_system *system, const double *slots_
 /* The programme of a part: max s with h_i + G_i y >= unit_i s, for the bounds that change in it. */
 struct programme {
     size_t size, count;
-    size_t *bound, *column;    /* count: its number; size: of the basis */
-    double *G, *h, *u, *y;     /* count x size, scaled; count; multipliers; size */
+    size_t *bound, *column; /* count: its number; size: of the basis */
+    double *G, *h, *u, *y;  /* count x size, scaled; count; multipliers; size */
     double margin;
 };
 
@@ -174,9 +174,9 @@ struct search {
     const double *slots_along, *lambda_along;
     const struct direction *flow;
     struct rest_margin *margin;
-    double *values, *y; /* of the bounds; of the basis */
+    double *values, *y;   /* of the bounds; of the basis */
     struct programme *of; /* parts */
-    bool *varies; /* bound_count: it is in a programme */
+    bool *varies;         /* bound_count: it is in a programme */
     int *gives;
 };
 
@@ -235,7 +235,8 @@ static double add_rate(const struct search *search, const struct rest_bound *bou
 {
     if (u <= undecided_part) return 0;
     if (bound->pair >= 0) search->gives[bound->pair] = bound->side < 0 ? slip_minus : slip_plus;
-    if (bound->kind == bound_plane) rest_cut_gives(search->system, &bound->cut, u, search->gives, search->margin->aims);
+    if (bound->kind == bound_plane)
+        rest_cut_gives(search->system, &bound->cut, u, search->gives, search->margin->aims);
     return u / bound->unit *
            bound_along(search->system, search->slots_along, search->lambda_along, bound, search->flow);
 }

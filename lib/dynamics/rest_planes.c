@@ -65,8 +65,8 @@ double rest_cut_along(const struct rest_system *system, const struct rest_cut *c
         const struct coupling *coupling = coupling_at(system, cut->coupling[i]);
         const struct vec u = cut->u[i], f = force_at(system, cut->coupling[i], NULL);
         const double omega = system->at.tree->links[coupling->end[0].link].omega * flow->dt;
-        rate -= vec_dot(force_at(system, cut->coupling[i], lambda_along), u) +
-                omega * vec_dot(f, vec_perp(u));
+        rate -=
+            vec_dot(force_at(system, cut->coupling[i], lambda_along), u) + omega * vec_dot(f, vec_perp(u));
         limit_of(system, cut->coupling[i], flow, &d_limit);
         rate += d_limit * vec_norm(u);
     }
@@ -157,7 +157,8 @@ static bool aim(const struct rest_system *system, struct rest_cut *cut)
     double M = 0, rate;
     if (!points) return false;
     for (int i = 0; i < cut->count; i++)
-        center = vec_add(center, vec_scale(1. / cut->count, arm_of(system, coupling_at(system, cut->coupling[i]))));
+        center = vec_add(center,
+                         vec_scale(1. / cut->count, arm_of(system, coupling_at(system, cut->coupling[i]))));
     for (int i = 0; i < cut->count; i++) {
         const struct coupling *coupling = coupling_at(system, cut->coupling[i]);
         const struct vec e = system->at.tree->couplings[cut->coupling[i]].e;

@@ -198,9 +198,11 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
         flow = tree_evaluate(state);
     struct arena arena = state_lend(state);
     struct rest_margin margin = {0};
-    bool shared = tree_find_margin(state, &at, rest_without_planes, &flow, slots, slots_along, &arena, &margin);
+    bool shared =
+        tree_find_margin(state, &at, rest_without_planes, &flow, slots, slots_along, &arena, &margin);
     if (shared && margin.value < 0) /* the loss of a slide's surface is detected elsewhere */
-        shared = tree_find_margin(state, &at, rest_without_guides, &flow, slots, slots_along, &arena, &margin);
+        shared =
+            tree_find_margin(state, &at, rest_without_guides, &flow, slots, slots_along, &arena, &margin);
     int which = pulled_against(state, decided, forced), next = 0;
     if (which >= 0 || (!solved && tree_is_locked(state))) found = differs;
     for (int pair = 0; found != differs && pair < (int)state->model->plan.mode_count; pair++) {

@@ -28,8 +28,7 @@ static double tips(struct builder *builder, const struct constraint *source, con
                    const char *hint)
 {
     if (source->place == 0)
-        diag_add(builder->errors, FBD_ERROR, "not-here", source->point[0].at, hint, "%s",
-                 message);
+        diag_add(builder->errors, FBD_ERROR, "not-here", source->point[0].at, hint, "%s", message);
     return 0;
 }
 
@@ -39,12 +38,15 @@ static double share_of_three(struct builder *builder, const struct constraint *s
     const double area = vec_cross(vec_sub(r[1], r[0]), vec_sub(r[2], r[0]));
     const double side = fmax(vec_norm(vec_sub(r[1], r[0])), vec_norm(vec_sub(r[2], r[0])));
     if (fabs(area) <= six_digits * side * side)
-        return tips(builder, source, "the points are in one line: equilibrium does not determine their parts of the weight",
+        return tips(builder, source,
+                    "the points are in one line: equilibrium does not determine their parts of the weight",
                     "write two points, or an entry with `at` and `normal` for each");
     double shares[3], least = 1;
-    for (int k = 0; k < 3; k++) least = fmin(least, shares[k] = vec_cross(r[(k + 1) % 3], r[(k + 2) % 3]) / area);
+    for (int k = 0; k < 3; k++)
+        least = fmin(least, shares[k] = vec_cross(r[(k + 1) % 3], r[(k + 2) % 3]) / area);
     if (least < -six_digits)
-        return tips(builder, source, "the centre of mass is outside of the triangle of the points: the body tips",
+        return tips(builder, source,
+                    "the centre of mass is outside of the triangle of the points: the body tips",
                     "let the points surround the centre of mass");
     return fmax(0, shares[source->place]);
 }
@@ -85,8 +87,8 @@ static bool links(const struct fbd_model *model, const struct constraint *source
 static bool has_others(const struct scene *scene, const struct constraint *source)
 {
     bool any = false;
-    for (const struct constraint *other = scene->constraints; other < scene->constraints + scene->constraint_count;
-         other++)
+    for (const struct constraint *other = scene->constraints;
+         other < scene->constraints + scene->constraint_count; other++)
         any |= other != source && other->kind == constraint_plane && other->body[0] == source->body[0];
     return any;
 }
@@ -95,8 +97,7 @@ static bool may_be_linked(const struct fbd_model *model)
 {
     const struct scene *scene = model->scene;
     bool linked = model->coupled_count > model->listed_count;
-    for (size_t i = 0; i < scene->constraint_count; i++)
-        linked |= links(model, &scene->constraints[i]);
+    for (size_t i = 0; i < scene->constraint_count; i++) linked |= links(model, &scene->constraints[i]);
     for (size_t b = 0; b < model->body_count; b++) linked |= model->bodies[b].parent >= 0;
     return linked;
 }

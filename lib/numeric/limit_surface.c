@@ -18,10 +18,10 @@ struct twist {
 struct surface {
     struct limit_point *points;
     size_t count;
-    double length;      /* the largest arm */
-    struct twist w;     /* of magnitude 1 */
-    struct twist b[2];  /* the directions normal to w */
-    double smooth;      /* e */
+    double length;     /* the largest arm */
+    struct twist w;    /* of magnitude 1 */
+    struct twist b[2]; /* the directions normal to w */
+    double smooth;     /* e */
 };
 
 static double dot(struct twist a, struct twist b)
@@ -116,14 +116,15 @@ static struct twist newton_step(const struct surface *of, struct twist v, double
 static struct twist descend(const struct surface *of, struct twist v)
 {
     enum { most_steps = 30, most_halves = 30 };
-    const double enough = 1e-4; /* of the decrease along the slope (Armijo) */
+    const double enough = 0.1; /* of the decrease along the slope (Armijo) */
     for (int step = 0; step < most_steps; step++) {
         double slope, size = 1;
         const struct twist way = newton_step(of, v, &slope);
         const double phi = phi_of(of, v);
         if (!(slope < -negligible_part * negligible_part * phi)) return v;
         int half = 0;
-        while (half++ < most_halves && !(phi_of(of, sum(v, size, way)) <= phi + enough * size * slope)) size /= 2;
+        while (half++ < most_halves && !(phi_of(of, sum(v, size, way)) <= phi + enough * size * slope))
+            size /= 2;
         if (half > most_halves) return v;
         v = sum(v, size, way);
     }
@@ -132,9 +133,8 @@ static struct twist descend(const struct surface *of, struct twist v)
 
 static struct twist smooth_least(struct surface *of)
 {
-    const double last = 1e-10; /* below it, of a velocity of 1, the twist is about a point */
     struct twist v = of->w;
-    for (of->smooth = 1; of->smooth > last; of->smooth /= 10) v = descend(of, v);
+    for (of->smooth = 1; of->smooth > negligible_sum; of->smooth /= 10) v = descend(of, v);
     return v;
 }
 

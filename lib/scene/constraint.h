@@ -106,8 +106,8 @@ struct constraint {
     double along;  /* roll, rack: direction of the line in the frame of end 1 */
     struct value mu_s,
         mu_k; /* roll: expr NULL for rolling without slip; contact: expr NULL for no friction; groove */
-    struct value normal;        /* plane friction: the force of all points on the plane; expr NULL for the weight */
-    int points, place;          /* plane friction: number of the points of its entry, and its number among them */
+    struct value normal; /* plane friction: the force of all points on the plane; expr NULL for the weight */
+    int points, place;   /* plane friction: number of the points of its entry, and its number among them */
     struct value surface_speed; /* roll, contact: of the skin of end 1, over t alone; expr NULL at rest */
     struct contact_law contact; /* point_absent: the whole body */
     struct lifetime lifetime;

@@ -183,8 +183,7 @@ static bool read_list(struct reader *reader, const struct node *list, bool conta
 static size_t name_points(struct reader *reader, size_t index, const char *name)
 {
     struct constraint *first = &reader->scene->constraints[index];
-    for (int k = 0; k < first->points; k++)
-        first[k].name = arena_printf(reader->arena, "%s.%d", name, k + 1);
+    for (int k = 0; k < first->points; k++) first[k].name = arena_printf(reader->arena, "%s.%d", name, k + 1);
     return index + (size_t)first->points;
 }
 
@@ -208,8 +207,7 @@ static size_t count_points(const struct node *couplings)
     size_t count = 0;
     for (size_t i = 0; couplings && i < couplings->count; i++) {
         const struct node *entry = couplings->items[i];
-        const struct node *keys =
-            entry->kind == node_map && entry->count == 1 ? entry->pairs[0].value : NULL;
+        const struct node *keys = entry->kind == node_map && entry->count == 1 ? entry->pairs[0].value : NULL;
         const struct pair *points = keys && keys->kind == node_map ? node_find(keys, "points") : NULL;
         if (points && points->value->kind == node_list) count += points->value->count;
     }

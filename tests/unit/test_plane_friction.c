@@ -170,12 +170,14 @@ static void check_spin(struct checks *checks, struct random_numbers *numbers)
     const double omega = random_between(numbers, -9, 9), phi = random_between(numbers, -3, 3);
     const double spin = random_perhaps(numbers, 0.5, -9, 9), t = I * fabs(omega - spin) / (mu * m * g * a);
     char text[900];
-    snprintf(text, sizeof text,
-             "fbd: 1\nplane: horizontal\nbodies:\n  table: {mass: 1, inertia: 1, motion: {pivot: {theta: \"%.17g[rad/s]*t\"}}}\n  "
-             "plank: {mass: %.17g, inertia: %.17g, motion: planar, initial: {theta: %.17g, omega: %.17g}}\n"
-             "couplings: [plane_friction: {name: feet, body: plank, on: table, points: [[%.17g, 0], [%.17g, 0]], "
-             "kinetic: %.17g}]\nsimulate: {until: %.17g}\n",
-             spin, m, I, phi, omega, -a, a, mu, 1.5 * t);
+    snprintf(
+        text, sizeof text,
+        "fbd: 1\nplane: horizontal\nbodies:\n  table: {mass: 1, inertia: 1, motion: {pivot: {theta: "
+        "\"%.17g[rad/s]*t\"}}}\n  "
+        "plank: {mass: %.17g, inertia: %.17g, motion: planar, initial: {theta: %.17g, omega: %.17g}}\n"
+        "couplings: [plane_friction: {name: feet, body: plank, on: table, points: [[%.17g, 0], [%.17g, 0]], "
+        "kinetic: %.17g}]\nsimulate: {until: %.17g}\n",
+        spin, m, I, phi, omega, -a, a, mu, 1.5 * t);
     struct trial trial = run_text(text);
     const double theta = phi + spin * 1.5 * t + (omega - spin) * t / 2;
     check_close(checks, "stops", trial_event(&trial, FBD_EVENT_STICK, "feet.1", 0), t, accuracy * t);
@@ -193,11 +195,13 @@ static void check_sledge(struct checks *checks, struct random_numbers *numbers)
     const double x = random_between(numbers, 0.1, 0.5), y = random_between(numbers, 0.1, 0.5);
     const double s = random_between(numbers, -0.9, 0.9); /* G is within the triangle */
     char text[900];
-    snprintf(text, sizeof text,
-             "fbd: 1\nplane: horizontal\nbodies:\n  sled: {mass: 2, inertia: 0.3, motion: planar, initial: {vx: "
-             "%.17g, vy: %.17g}}\ncouplings: [plane_friction: {body: sled, points: [[%.17g, %.17g], [%.17g, %.17g], "
-             "[%.17g, %.17g]], kinetic: %.17g}]\nsimulate: {until: %.17g}\n",
-             v * cos(phi), v * sin(phi), x, s * y, -x, y, -x, -y, mu, 1.5 * v / (mu * g));
+    snprintf(
+        text, sizeof text,
+        "fbd: 1\nplane: horizontal\nbodies:\n  sled: {mass: 2, inertia: 0.3, motion: planar, initial: {vx: "
+        "%.17g, vy: %.17g}}\ncouplings: [plane_friction: {body: sled, points: [[%.17g, %.17g], [%.17g, "
+        "%.17g], "
+        "[%.17g, %.17g]], kinetic: %.17g}]\nsimulate: {until: %.17g}\n",
+        v * cos(phi), v * sin(phi), x, s * y, -x, y, -x, -y, mu, 1.5 * v / (mu * g));
     struct trial trial = run_text(text);
     check_close(checks, "stops", trial_event(&trial, FBD_EVENT_STICK, NULL, 0), v / (mu * g), accuracy * v);
     check_close(checks, "x", trial_get(&trial, "sled.x"), way * cos(phi), accuracy * way);
@@ -215,11 +219,12 @@ static void check_pivot(struct checks *checks, struct random_numbers *numbers)
     const double F = second * (a + b) / (at + a), rate = m * random_between(numbers, 1, 9), t = F / rate;
     char text[900];
     if (second - F > 0.9 * first) return; /* it does not pivot */
-    snprintf(text, sizeof text,
-             "fbd: 1\nplane: horizontal\nbodies:\n  plank: {mass: %.17g, inertia: %.17g, motion: planar, forces: "
-             "[applied: {fy: \"%.17g[N/s]*t\", at: [%.17g, 0]}]}\ncouplings: [plane_friction: {name: feet, body: "
-             "plank, points: [[%.17g, 0], [%.17g, 0]], kinetic: %.17g}]\nsimulate: {until: %.17g}\n",
-             m, 0.3 * m * (a + b) * (a + b), rate, at, -a, b, mu, 1.001 * t);
+    snprintf(
+        text, sizeof text,
+        "fbd: 1\nplane: horizontal\nbodies:\n  plank: {mass: %.17g, inertia: %.17g, motion: planar, forces: "
+        "[applied: {fy: \"%.17g[N/s]*t\", at: [%.17g, 0]}]}\ncouplings: [plane_friction: {name: feet, body: "
+        "plank, points: [[%.17g, 0], [%.17g, 0]], kinetic: %.17g}]\nsimulate: {until: %.17g}\n",
+        m, 0.3 * m * (a + b) * (a + b), rate, at, -a, b, mu, 1.001 * t);
     struct trial trial = run_text(text);
     const double theta = trial_get(&trial, "plank.theta");
     check_close(checks, "pivots", trial_event(&trial, FBD_EVENT_BREAKAWAY, "feet.2", 0), t, accuracy * t);
@@ -234,13 +239,17 @@ static void check_pivot(struct checks *checks, struct random_numbers *numbers)
 static void check_pair(struct checks *checks, struct random_numbers *numbers)
 {
     const double mu = random_between(numbers, 0.1, 0.8), phi = random_between(numbers, -3, 3);
-    const double psi = random_between(numbers, -3, 3), rate = random_between(numbers, 1, 9), t = 2 * mu * g / rate;
+    const double psi = random_between(numbers, -3, 3), rate = random_between(numbers, 1, 9),
+                 t = 2 * mu * g / rate;
     char text[900];
     snprintf(text, sizeof text,
              "fbd: 1\nplane: horizontal\nbodies:\n  a: {mass: 1, motion: particle, forces: [applied: {value: "
-             "\"%.17g[N/s]*t\", angle: %.17g}]}\n  b: {mass: 1, motion: particle, initial: {x: %.17g, y: %.17g}, forces: "
-             "[applied: {value: \"%.17g[N/s]*t\", angle: %.17g}]}\ncouplings:\n  - rod: {between: [a, b]}\n  - plane_friction: "
-             "{name: under_a, body: a, kinetic: %.17g}\n  - plane_friction: {name: under_b, body: b, kinetic: %.17g}\n"
+             "\"%.17g[N/s]*t\", angle: %.17g}]}\n  b: {mass: 1, motion: particle, initial: {x: %.17g, y: "
+             "%.17g}, forces: "
+             "[applied: {value: \"%.17g[N/s]*t\", angle: %.17g}]}\ncouplings:\n  - rod: {between: [a, b]}\n  "
+             "- plane_friction: "
+             "{name: under_a, body: a, kinetic: %.17g}\n  - plane_friction: {name: under_b, body: b, "
+             "kinetic: %.17g}\n"
              "simulate: {until: %.17g}\n",
              rate / 2, phi, cos(psi), sin(psi), rate / 2, phi, mu, mu, 1.5 * t);
     struct trial trial = run_text(text);
@@ -278,9 +287,9 @@ static void motions_have_closed_forms(void **unused)
 {
     (void)unused;
     static void (*const kinds[])(struct checks * checks,
-                                 struct random_numbers * numbers) = {check_puck, check_belt,   check_coin,
-                                                                     check_pull, check_return, check_sled,
-                                                                     check_hit,  check_spin,   check_sledge,
+                                 struct random_numbers * numbers) = {check_puck,  check_belt,   check_coin,
+                                                                     check_pull,  check_return, check_sled,
+                                                                     check_hit,   check_spin,   check_sledge,
                                                                      check_pivot, check_pair};
     const int draws = draws_of(40);
     struct random_numbers numbers = {7201};
@@ -299,7 +308,7 @@ struct body {
     int points;
     double m, I, mu_s, mu_k;
     double x[most_points], y[most_points], N[most_points]; /* its points, and the force on each */
-    double fx, fy, M;                         /* applied, times t */
+    double fx, fy, M;                                      /* applied, times t */
 };
 
 struct system {
@@ -513,8 +522,8 @@ static struct trial open_system(const struct system *s, const struct motion *at,
                 end, 1000,
                 "  - plane_friction: {name: f%d%d, body: body%d, at: [%.17g, %.17g], on: %s, static: %.17g, "
                 "kinetic: %.17g, normal: %.17g}\n",
-                b, k, b, s->bodies[b].x[k], s->bodies[b].y[k], s->bodies[b].on_table ? "table" : "ground", s->bodies[b].mu_s,
-                s->bodies[b].mu_k, s->bodies[b].N[k]);
+                b, k, b, s->bodies[b].x[k], s->bodies[b].y[k], s->bodies[b].on_table ? "table" : "ground",
+                s->bodies[b].mu_s, s->bodies[b].mu_k, s->bodies[b].N[k]);
     snprintf(end, 1000, "simulate: {until: %.17g}\n", until);
     return trial_parse(text);
 }
