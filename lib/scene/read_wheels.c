@@ -9,10 +9,11 @@
 
 /* ---- ends */
 
-static bool add_end(struct reader *reader, const struct node *node, struct constraint *constraint)
+static bool add_end(struct reader *reader, const struct node *node, const char *what,
+                    struct constraint *constraint)
 {
     int k = constraint->end_count++;
-    return coupling_end_read(reader, node, "between", &constraint->body[k], &constraint->point[k]);
+    return coupling_end_read(reader, node, what, &constraint->body[k], &constraint->point[k]);
 }
 
 static bool refuse_count(struct reader *reader, const struct node *list, const char *what, const char *hint)
@@ -31,7 +32,7 @@ bool coupling_ends_read(struct reader *reader, const struct node *list, const ch
                             least == most ? "write [a.P, b.Q]" : "between 2 and 8 places");
     bool fine = true;
     for (size_t i = 0; i < list->count; i++)
-        if (!add_end(reader, list->items[i], constraint)) fine = false;
+        if (!add_end(reader, list->items[i], what, constraint)) fine = false;
     bool moves = false, same = false;
     for (int k = 0; k < constraint->end_count; k++) {
         if (constraint->body[k] != ground_body) moves = true;
