@@ -11,7 +11,7 @@
 #include "scene/reader.h"
 
 /* Read all ends; at least one of them moves, and no two subsequent ones are on the same body. */
-bool coupling_ends_read(struct reader *reader, const struct node *list, const char *what, size_t least,
+bool coupling_ends_read(struct reader *reader, const struct node *list, const char *key, size_t least,
                         size_t most, struct constraint *constraint);
 
 /* The circle of a body: the first of its parts that is round; NULL without one. */

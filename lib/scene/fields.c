@@ -202,7 +202,7 @@ static const char *not_given(const struct group *group)
     return NULL;
 }
 
-/* Forces that are there all the time, and how what is meant is said. */
+/* Forces that are there all the time, with hints for them. */
 static const char *const lasting[][2] = {
     {"`gravity`",
      "the weight acts all the time; a force in a part of the run is `applied`, as `applied: {value: 5 N, "

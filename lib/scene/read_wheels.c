@@ -9,29 +9,29 @@
 
 /* ---- ends */
 
-static bool add_end(struct reader *reader, const struct node *node, struct constraint *constraint)
+static bool add_end(struct reader *reader, const struct node *node, const char *key,
+                    struct constraint *constraint)
 {
     int k = constraint->end_count++;
-    return coupling_end_read(reader, node, "between", &constraint->body[k], &constraint->point[k]);
+    return coupling_end_read(reader, node, key, &constraint->body[k], &constraint->point[k]);
 }
 
-static bool refuse_count(struct reader *reader, const struct node *list, const char *what, const char *hint)
+static bool refuse_count(struct reader *reader, const struct node *list, const char *key, const char *hint)
 {
-    diag_add(reader->errors, FBD_ERROR, "wrong-type", list->at, hint, "`%s` has %zu entries", what,
+    diag_add(reader->errors, FBD_ERROR, "wrong-type", list->at, hint, "`%s` has %zu entries", key,
              list->count);
     return false;
 }
 
-bool coupling_ends_read(struct reader *reader, const struct node *list, const char *what, size_t least,
+bool coupling_ends_read(struct reader *reader, const struct node *list, const char *key, size_t least,
                         size_t most, struct constraint *constraint)
 {
     if (!list) return false; /* noted before */
     if (list->count < least || list->count > most)
-        return refuse_count(reader, list, what,
-                            least == most ? "write [a.P, b.Q]" : "between 2 and 8 places");
+        return refuse_count(reader, list, key, least == most ? "write [a.P, b.Q]" : "between 2 and 8 places");
     bool fine = true;
     for (size_t i = 0; i < list->count; i++)
-        if (!add_end(reader, list->items[i], constraint)) fine = false;
+        if (!add_end(reader, list->items[i], key, constraint)) fine = false;
     bool moves = false, same = false;
     for (int k = 0; k < constraint->end_count; k++) {
         if (constraint->body[k] != ground_body) moves = true;
