@@ -355,10 +355,11 @@ const fbd_error *diag_get(fbd_errors *errors, size_t index)
 
 const fbd_error *diag_first_error(fbd_errors *errors)
 {
-    const fbd_error *note;
-    for (size_t i = 0; (note = diag_get(errors, i)) != NULL; i++)
-        if (note->severity == FBD_ERROR) return note;
-    return NULL;
+    const fbd_error *first = NULL;
+    for (const struct diag_note *note = errors ? errors->first : NULL; note; note = note->next)
+        if (note->error.severity == FBD_ERROR && (!first || stands_after(first, &note->error)))
+            first = &note->error;
+    return first || !errors ? first : diag_get(errors, errors->count);
 }
 
 fbd_error fbd_errors_get(fbd_errors *errors, size_t index)

@@ -81,7 +81,7 @@ void diag_in_file(fbd_errors *errors, const char *file);
 const struct diag_note *diag_note_at(fbd_errors *errors, size_t index);
 const fbd_error *diag_get(fbd_errors *errors, size_t index);
 
-/* The first note that is no warning, or NULL. */
+/* The first note that is no warning, or NULL; needs no memory. */
 const fbd_error *diag_first_error(fbd_errors *errors);
 
 /* Add a file that is going to be read to the list of fbd_errors_file, once. */
