@@ -56,7 +56,7 @@ typedef struct fbd_body {
     bool surface;        /* slide: on a surface with a normal force; false where it is guided */
     bool two_sided;      /* and the surface has a second side, above the body */
     bool friction;       /* `friction` with a surface, or of a bearing, acts on it */
-    double stops[2];     /* slide, pivot: the least and the largest value of its coordinate; NAN without a stop */
+    double stops[2];     /* slide, pivot: least and largest value of its coordinate; NAN without a stop */
     fbd_inertia inertia; /* see fbd_model_inertia */
     size_t listed;       /* forces and moments that the file lists: the first of its diagram */
     size_t most_forces;  /* the most that its diagram can have */

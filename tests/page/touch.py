@@ -176,10 +176,10 @@ def check_words(browser, folder):
               const c = spec.columns[i], body = run.bodies.find((b) => [...b.coordinates, ...b.rates].includes(c));
               const owner = run.bodies.find((b) => b.arrows.some((a) => a.force.includes(c))), arrow = owner && owner.arrows.find((a) => a.force.includes(c));
               if (body && hue(button) !== `var(--curve-${run.bodies.indexOf(body)})`) found.push(button.textContent);
-              if (arrow && hue(button) !== `var(--${arrowHue(arrow)})`) found.push(button.textContent);
+              if (arrow && hue(button) !== `var(--${arrow.hue})`) found.push(button.textContent);
             });
             for (const row of document.querySelectorAll('#equations tr[data-arrow]'))
-              if (hue(row) !== `var(--${arrowHue(arrowBy(row.dataset.arrow).arrow)})`) found.push(row.textContent);
+              if (hue(row) !== `var(--${arrowBy(row.dataset.arrow).arrow.hue})`) found.push(row.textContent);
             return found;""")
         assert wrong == [], wrong
     with claim("curves of one hue in a plot differ in their dashes"):
