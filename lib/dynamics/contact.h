@@ -77,6 +77,7 @@ double meeting_speed(const struct tree_work *work, const struct meeting *meeting
 double meeting_rounding(const struct fbd_model *model, const struct tree_work *work, int index);
 
 /* The distance of a closed feature from each of two ends, at an edge, positive until it ends there; HUGE_VAL
+double meeting_jump(const struct fbd_model *model, const struct tree_work *work, int index);
  * without. */
 struct gap feature_end(const struct fbd_model *model, const struct tree_work *work, int index, int feature,
                        int end);

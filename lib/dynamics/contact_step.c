@@ -47,3 +47,11 @@ double meeting_speed(const struct tree_work *work, const struct meeting *meeting
     }
     return speed;
 }
+/* Of two polygons `separation` takes a side among those that are equal within a level, and a corner likewise. */
+double meeting_jump(const struct fbd_model *model, const struct tree_work *work, int index)
+{
+    const struct contact_shape *shape = model->tree->meetings[index].shape;
+    bool sides = shape[0].kind == contact_corners && shape[1].kind == contact_corners;
+    return sides ? meeting_near(model, work, index) : 0;
+}
+

@@ -101,7 +101,7 @@ void series_init(struct series *series, size_t count, struct arena *memory)
 {
     size_t matrices = count > 0 ? place_of_matrix(series_levels) : 0;
     *series = (struct series){.count = count};
-    series->values = ARENA_ARRAY(memory, (3 * nodes + 8) * count, double);
+    series->values = ARENA_ARRAY(memory, (3 * nodes + 9) * count, double);
     series->matrices = arena_take(memory, matrices, sizeof *series->matrices, false);
     if (memory->failed) return;
     series->rates = series->values + nodes * count;
@@ -113,7 +113,8 @@ void series_init(struct series *series, size_t count, struct arena *memory)
     series->value = series->tail + count;
     series->rate = series->value + count;
     series->rounding = series->rate + count;
-    series->off = series->rounding + count;
+    series->jump = series->rounding + count;
+    series->off = series->jump + count;
 }
 
 void series_start(struct series *series)
@@ -284,10 +285,11 @@ enum series_state series_fit(struct series *series, size_t i, bool halved)
     bool last = series->level == series_levels - 1;
     /* The last terms of a smooth function fall by 2^16 from a panel to its half; those that do not are
      * round-off. */
-    if (last && halved && share > least_fall * series->tail[i])
-        series->floor[i] = fmax(series->floor[i], fmin(2 * series->tail[i], most_series_rounding));
+    const bool stays = last && halved && share > least_fall * series->tail[i];
+    if (stays) series->floor[i] = fmax(series->floor[i], fmin(2 * series->tail[i], most_series_rounding));
     if (last) series->tail[i] = share;
-    bool small = tail <= series->rounding[i] || share <= negligible || share <= series->floor[i];
+    bool small = tail <= series->rounding[i] || (stays && tail <= 2 * series->jump[i]) ||
+                 share <= negligible || share <= series->floor[i];
     if (small) return series_followed;
     return last ? series_unresolved : series_rough;
 }

@@ -36,6 +36,7 @@ struct series {
     double *tail; /* count: the truncation error relative to the size */
     double *value, *rate; /* count: one sample */
     double *rounding;     /* count, set by the caller: round-off level of each function */
+    double *jump;         /* the same: it may jump by so much, twice this level */
     double *off;          /* count: error of the rates of the last panel */
     double *matrices;     /* of each level: from values (and rates) at its nodes to c */
     bool prepared;        /* the matrices are set */

@@ -206,11 +206,14 @@ static double rounding_of(const struct watcher *watcher, const struct fbd_state 
     return contact_slack(model, coupling);
 }
 
-void watchers_set_rounding(const struct watcher_set *set, const struct fbd_state *state, double *rounding)
+void watchers_set_rounding(const struct watcher_set *set, const struct fbd_state *state, double *rounding,
+                           double *jump)
 {
     for (size_t i = 0; i < set->count; i++) {
-        double all = rounding_of(&set->watchers[i], state);
+        const struct watcher *watcher = &set->watchers[i];
+        double all = rounding_of(watcher, state);
         if (all >= 0) rounding[i] = all / 2;
+        jump[i] = watcher->kind == watch_gap ? meeting_jump(state->model, state->tree, watcher->index) : 0;
     }
 }
 

@@ -115,7 +115,8 @@ void watchers_follow(struct watchers *watchers, const struct fbd_state *state);
 
 /* Set the round-off level of sampled functions, in the modes of `state` at its present point; a zero within
  * twice that level does not count. Other entries are left unchanged. */
-void watchers_set_rounding(const struct watcher_set *set, const struct fbd_state *state, double *rounding);
+void watchers_set_rounding(const struct watcher_set *set, const struct fbd_state *state, double *rounding,
+                           double *jump);
 
 /* A part of watchers_arm: set `quiet`. */
 void watchers_calm(struct watchers *watchers, const struct fbd_state *state, double step);

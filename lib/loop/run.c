@@ -246,7 +246,8 @@ static bool restart(struct run *run)
         run_fail_step(run, stepper_bad_function);
         return false;
     }
-    watchers_set_rounding(&run->watchers.moving, run->during, run->search.moving.series.rounding);
+    watchers_set_rounding(&run->watchers.moving, run->during, run->search.moving.series.rounding,
+                          run->search.moving.series.jump);
     if (run->step.first == 0) run->step.first = run->step.h;
     if (run_is_one_step(run)) run->step.h = run->options.until - run->state->t;
     if (run->kind == structure_linear && !run_start_linear(run)) return false;
