@@ -130,6 +130,9 @@ double run_contact_radians(const struct run *run, double span);
  * another; gaps that stay large are ignored. */
 double run_contact_bend(struct run *run, double from, double to);
 
+/* Do shapes overlap at the end of the step in run->work.y? */
+bool run_overlaps(struct run *run, double end);
+
 /* Check that no shapes overlap at the end of a step; else the run ends, since an impact was missed. */
 void run_check_overlap(struct run *run);
 

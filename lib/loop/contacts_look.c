@@ -290,6 +290,17 @@ void contacts_note_touching(struct run *run)
         run->contacts.touched[i] = tree_of(run)->meetings[i].stop != 0 ? 0 : count_touching(run, i);
 }
 
+bool run_overlaps(struct run *run, double end)
+{
+    struct fbd_state *trial = run->contacts.trial;
+    double depth;
+    if (!has_meetings(run->model) || run->end.outcome != FBD_GOING) return false;
+    state_copy(trial, run->during);
+    memcpy(trial->y, run->work.y, plan_size(&run->model->plan) * sizeof *trial->y);
+    trial->t = end;
+    return contacts_overlap(trial, &depth) >= 0;
+}
+
 void run_check_overlap(struct run *run)
 {
     double depth;

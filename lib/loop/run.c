@@ -370,12 +370,25 @@ static bool go_beyond(struct run *run, struct turn *turn)
     return run->end.outcome == FBD_GOING && begin_step(run) && limit_step(run, turn);
 }
 
-/* Make one accepted step, to y and its slopes. A step rejected by defect control is repeated with a quarter
- * of its length. */
+/* How often a step is repeated with a quarter of its length. */
+enum { most_times = 30 };
+
+/* Begin the step again, with a quarter of its length. */
+static bool shorten(struct run *run, struct turn *turn)
+{
+    const double shorter = 0.25;
+    double h = shorter * time_dd_since(turn->t, run_start(run));
+    if (!(run->step.from + h > run->step.from) || !restart(run)) return false;
+    turn->t = run_start(run);
+    turn->limit = time_dd_at(run->step.from + h);
+    turn->timed = false;
+    run->step.h = fmin(run->step.h, h);
+    return true;
+}
+
+/* Make one accepted step, to y and its slopes. A step rejected by defect control is repeated. */
 static bool make_step(struct run *run, struct turn *turn)
 {
-    enum { most_times = 30 };
-    const double shorter = 0.25;
     for (int time = 0;; time++) {
         closed_loops_hold(run->during->tree->loops, false);
         closed_loops_suspend(run->during->tree->loops, false);
@@ -388,13 +401,7 @@ static bool make_step(struct run *run, struct turn *turn)
         if (status != stepper_ok) run_fail_step(run, status);
         if (status != stepper_ok || time == most_times || !defect_is_large(run, turn->t))
             return status == stepper_ok;
-        double h = shorter * time_dd_since(turn->t, run_start(run));
-        if (!(run->step.from + h > run->step.from)) return true;
-        if (!restart(run)) return false;
-        turn->t = run_start(run);
-        turn->limit = time_dd_at(run->step.from + h);
-        turn->timed = false;
-        run->step.h = fmin(run->step.h, h);
+        if (!shorten(run, turn)) return run->end.outcome == FBD_GOING;
     }
 }
 
@@ -414,6 +421,17 @@ static bool find_events(struct run *run, struct turn *turn)
     run_watch_ends(run, &turn->t);
     turn->timed = turn->timed && time_dd_equal(turn->t, turn->limit);
     return true;
+}
+
+/* A step to the next event. If shapes are in each other at its end an event was missed, and the step is
+ * repeated. */
+static bool step_to_event(struct run *run, struct turn *turn)
+{
+    for (int time = 0; make_step(run, turn) && find_events(run, turn); time++) {
+        if (time == most_times || !run_overlaps(run, turn->t.t)) return true;
+        if (!shorten(run, turn)) return run->end.outcome == FBD_GOING;
+    }
+    return false;
 }
 
 /* Set the state to the end of the step, projected onto the couplings. */
@@ -478,8 +496,8 @@ static void end_step(struct run *run, const struct turn *turn)
 fbd_outcome run_advance(struct run *run)
 {
     struct turn turn;
-    if (run->end.outcome == FBD_GOING && begin_step(run) && limit_step(run, &turn) && make_step(run, &turn) &&
-        find_events(run, &turn) && accept_step(run, &turn) && apply_events(run, &turn))
+    if (run->end.outcome == FBD_GOING && begin_step(run) && limit_step(run, &turn) &&
+        step_to_event(run, &turn) && accept_step(run, &turn) && apply_events(run, &turn))
         end_step(run, &turn);
     return run->end.outcome;
 }
