@@ -54,8 +54,10 @@ int meeting_touching(const struct fbd_model *model, const struct tree_work *work
                      int features[2]);
 
 /* The height of a step against which two polygons hit with `speed`, if it is below the level of surfaces: a
- * corner lies behind a side, along which they move, by that much. 0 without one. */
-double meeting_low_step(const struct fbd_model *model, const struct tree_work *work, int index, double speed);
+ * corner lies behind a side, along which they move and the impact with this normal pushes, by that much. 0 without
+ * one. */
+double meeting_low_step(const struct fbd_model *model, const struct tree_work *work, int index, double speed,
+                        struct vec normal);
 
 /* Set the sides of the corners of a thin contact pair (dynamics/contact_thin.h) as they enter the circle
  * round the bar; corners outside have none. */
@@ -73,11 +75,11 @@ struct distance meeting_distance(const struct fbd_model *model, const struct tre
 /* A bound for the speed of points of its shapes. */
 double meeting_speed(const struct tree_work *work, const struct meeting *meeting);
 
-/* The rounding of a gap. */
+/* The rounding of a gap; and by how much the gap of two shapes may jump, twice at most. */
 double meeting_rounding(const struct fbd_model *model, const struct tree_work *work, int index);
+double meeting_jump(const struct fbd_model *model, const struct tree_work *work, int index);
 
 /* The distance of a closed feature from each of two ends, at an edge, positive until it ends there; HUGE_VAL
-double meeting_jump(const struct fbd_model *model, const struct tree_work *work, int index);
  * without. */
 struct gap feature_end(const struct fbd_model *model, const struct tree_work *work, int index, int feature,
                        int end);

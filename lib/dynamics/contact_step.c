@@ -6,6 +6,15 @@
 
 #include "dynamics/constraint.h"
 
+/* Does an impact with this normal push along a side, as a step does that stops a body on it, and not onto it? */
+static bool pushes_along(const struct tree_work *work, const struct meeting *meeting, int moving, int side,
+                         struct vec normal)
+{
+    struct touch touch = meeting_touch(meeting, meeting_feature(meeting, moving, 0, side));
+    struct vec e = vec_turn(work->links[meeting->shape[1 - moving].link].turn, touch.e);
+    return fabs(vec_dot(e, normal)) > fabs(vec_cross(e, normal));
+}
+
 /* The depth of a corner of shape `moving` behind a side of the other along which they move; 0 if another
  * corner is deeper than the level. */
 static double depth_along(const struct fbd_model *model, const struct tree_work *work, int index, int moving,
@@ -25,7 +34,8 @@ static double depth_along(const struct fbd_model *model, const struct tree_work 
     return depth;
 }
 
-double meeting_low_step(const struct fbd_model *model, const struct tree_work *work, int index, double speed)
+double meeting_low_step(const struct fbd_model *model, const struct tree_work *work, int index, double speed,
+                        struct vec normal)
 {
     const double along = 1e-3; /* of the speed of the impact */
     const struct meeting *meeting = &model->tree->meetings[index];
@@ -34,8 +44,17 @@ double meeting_low_step(const struct fbd_model *model, const struct tree_work *w
     if (meeting->thin || meeting->stop != 0 || !corners) return 0;
     for (int moving = 0; moving < 2; moving++)
         for (int side = 0; side < shape_sides(&meeting->shape[1 - moving]); side++)
-            height = fmax(height, depth_along(model, work, index, moving, side, along * speed));
+            if (pushes_along(work, meeting, moving, side, normal))
+                height = fmax(height, depth_along(model, work, index, moving, side, along * speed));
     return height;
+}
+
+/* Of two polygons `separation` takes a side among those that are equal within a level, and a corner likewise. */
+double meeting_jump(const struct fbd_model *model, const struct tree_work *work, int index)
+{
+    const struct contact_shape *shape = model->tree->meetings[index].shape;
+    bool sides = shape[0].kind == contact_corners && shape[1].kind == contact_corners;
+    return sides ? meeting_near(model, work, index) : 0;
 }
 
 double meeting_speed(const struct tree_work *work, const struct meeting *meeting)
@@ -47,11 +66,3 @@ double meeting_speed(const struct tree_work *work, const struct meeting *meeting
     }
     return speed;
 }
-/* Of two polygons `separation` takes a side among those that are equal within a level, and a corner likewise. */
-double meeting_jump(const struct fbd_model *model, const struct tree_work *work, int index)
-{
-    const struct contact_shape *shape = model->tree->meetings[index].shape;
-    bool sides = shape[0].kind == contact_corners && shape[1].kind == contact_corners;
-    return sides ? meeting_near(model, work, index) : 0;
-}
-

@@ -355,9 +355,11 @@ static bool refuse_low_step(struct run *run, int count)
 {
     for (int i = 0; i < count; i++) {
         const struct striker *striker = &run->contacts.strikers[i];
-        int index = tree_of(run)->couplings[striker->coupling].meeting;
+        const struct coupling *coupling = &tree_of(run)->couplings[striker->coupling];
+        const int index = coupling->meeting, row = coupling->first_row;
         if (!striker->contact || !(striker->v_n < 0)) continue;
-        double height = meeting_low_step(run->model, run->state->tree, index, -striker->v_n);
+        double height = meeting_low_step(run->model, run->state->tree, index, -striker->v_n,
+                                         run->state->tree->rows[row].ports[0].force);
         if (height == 0) continue;
         run_fail(run, FBD_FAILED,
                  "at t = %.9g the contact `%s` strikes a step of %.3g, which is below the accuracy of the "
