@@ -222,16 +222,23 @@ static void keep(const struct remainder *remainder)
     memcpy(work->P, remainder->P, (size_t)remainder->all * sizeof *after);
 }
 
-/* Points that stop stick from here on. */
-static void stick_stopped(const struct remainder *remainder)
+/* Points that stop stick from here on, and those that slip on do so whether they stuck before or not: a projection of the
+ * velocities would else stop them without an impulse. */
+static void set_slips(const struct remainder *remainder)
 {
     struct run *run = remainder->run;
     for (int i = 0; i < remainder->count; i++) {
         const struct coupling *coupling = coupling_of(remainder, i);
-        const bool held = coupling->meeting >= 0 && is_held(remainder, 2 * i + 1);
-        if (coupling->pair < 0 || !held || run->state->slip[coupling->pair] == stick) continue;
-        coupling_rezero(run->model, run->state->tree, (int)(coupling - run->model->tree->couplings));
-        run->state->slip[coupling->pair] = stick;
+        const int line = 2 * i + 1, pair = coupling->pair;
+        if (coupling->meeting < 0 || pair < 0) continue;
+        const double v_t = run->contacts.v[line];
+        int *slip = &run->state->slip[pair];
+        if (!is_held(remainder, line)) {
+            if (*slip == stick && v_t != 0) *slip = v_t > 0 ? slip_plus : slip_minus;
+        } else if (*slip != stick) {
+            coupling_rezero(run->model, run->state->tree, (int)(coupling - run->model->tree->couplings));
+            *slip = stick;
+        }
     }
 }
 
@@ -246,7 +253,7 @@ void zeno_apply_remaining(struct run *run, int count, double slow)
     if (done) {
         keep(&remainder);
         contacts_apply_impulses(run, count);
-        stick_stopped(&remainder);
+        set_slips(&remainder);
         for (int i = 0; i < count; i++) {
             const ptrdiff_t line = (ptrdiff_t)2 * i;
             run->impact_work[coupling_of(&remainder, i)->load] +=
