@@ -356,16 +356,14 @@ static bool refuse_low_step(struct run *run, int count)
     for (int i = 0; i < count; i++) {
         const struct striker *striker = &run->contacts.strikers[i];
         const struct coupling *coupling = &tree_of(run)->couplings[striker->coupling];
-        const int index = coupling->meeting, row = coupling->first_row;
+        const struct vec n = run->state->tree->rows[coupling->first_row].ports[0].force;
         if (!striker->contact || !(striker->v_n < 0)) continue;
-        double height = meeting_low_step(run->model, run->state->tree, index, -striker->v_n,
-                                         run->state->tree->rows[row].ports[0].force);
+        double height = meeting_low_step(run->model, run->state->tree, coupling->meeting, -striker->v_n, n);
         if (height == 0) continue;
         run_fail(run, FBD_FAILED,
                  "at t = %.9g the contact `%s` strikes a step of %.3g, which is below the accuracy of the "
                  "numbers in a file but would stop a sliding body. Give both surfaces the same height",
-                 run_time(run), run->model->scene->constraints[tree_of(run)->meetings[index].constraint].name,
-                 height);
+                 run_time(run), run->model->scene->constraints[coupling->constraint].name, height);
         return true;
     }
     return false;

@@ -370,14 +370,12 @@ static bool go_beyond(struct run *run, struct turn *turn)
     return run->end.outcome == FBD_GOING && begin_step(run) && limit_step(run, turn);
 }
 
-/* How often a step is repeated with a quarter of its length. */
-enum { most_times = 30 };
+enum { most_times = 30 }; /* that a step is repeated */
 
 /* Begin the step again, with a quarter of its length. */
 static bool shorten(struct run *run, struct turn *turn)
 {
-    const double shorter = 0.25;
-    double h = shorter * time_dd_since(turn->t, run_start(run));
+    const double h = time_dd_since(turn->t, run_start(run)) / 4;
     if (!(run->step.from + h > run->step.from) || !restart(run)) return false;
     turn->t = run_start(run);
     turn->limit = time_dd_at(run->step.from + h);
@@ -423,8 +421,7 @@ static bool find_events(struct run *run, struct turn *turn)
     return true;
 }
 
-/* A step to the next event. If shapes are in each other at its end an event was missed, and the step is
- * repeated. */
+/* A step to the next event, repeated if shapes are in each other at its end: an event was missed. */
 static bool step_to_event(struct run *run, struct turn *turn)
 {
     for (int time = 0; make_step(run, turn) && find_events(run, turn); time++) {
