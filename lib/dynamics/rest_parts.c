@@ -120,3 +120,11 @@ bool rest_part(const struct rest_system *system, const double *G, int which, str
             part->G[i * part->size + k] = G[part->limit[i] * d + part->column[k]];
     return true;
 }
+
+bool rest_vary(struct rest_system *system, size_t k, double size)
+{
+    double *w = ARENA_ARRAY(system->arena, system->basis_count + 1, double);
+    if (!w) return false;
+    w[k] = 1;
+    return rest_move(system, w, size);
+}

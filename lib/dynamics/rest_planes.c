@@ -2,7 +2,7 @@
  *
  * Limits of the friction of bodies that stick to a plane at several points, or at one point that shares forces with others.
  *
- * What the points of a body can bear together is a convex set of forces and moments (numeric/limit_surface.h), and the margin
+ * The forces and moments that the points of a body can bear together are a convex set (numeric/limit_surface.h), and the margin
  * of a redundant load (rest_system.h) a linear programme: so the set is replaced by half-spaces, for velocities u_i at which
  * the present forces are nearest to its border, until no other one is nearer (J. E. Kelley, J. SIAM 8, 1960, 703). The forces
  * of a single body need one half-space. At a zero margin the points begin to slip with the velocities of the half-spaces, in

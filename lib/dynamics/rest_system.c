@@ -173,14 +173,6 @@ bool rest_move(struct rest_system *system, const double *w, double size)
     return true;
 }
 
-bool rest_vary(struct rest_system *system, size_t k, double size)
-{
-    double *w = ARENA_ARRAY(system->arena, system->basis_count + 1, double);
-    if (!w) return false;
-    w[k] = 1;
-    return rest_move(system, w, size);
-}
-
 /* The scale of w: the limits may be exceeded by far more than the loads, as with the tension of a belt. */
 static double size_of_way(const struct rest_system *system, const double *values)
 {
@@ -233,8 +225,7 @@ static bool find_within(struct rest_system *system, double *w, double *size)
 }
 
 /* Keep the least reactions if they are within the limits, else find the least ones that are, first exactly,
- * then, if the feasible set is nearly empty, within half of the tolerance; with more limits of points on planes until their
- * forces are within their discs. */
+ * then, if the feasible set is nearly empty, within half of the tolerance; with limits of points on planes as needed. */
 static bool keep_limits(struct rest_system *system)
 {
     enum { most_cuts = 60 };

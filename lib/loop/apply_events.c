@@ -10,7 +10,6 @@
 #include "dynamics/friction.h"
 #include "dynamics/modes.h"
 #include "dynamics/nonfinite.h"
-#include "dynamics/plane_friction.h"
 #include "dynamics/project.h"
 #include "dynamics/tree.h"
 #include "loop/run.h"
@@ -51,47 +50,16 @@ static void drop_rounding(struct run *run)
         if (fabs(run->state->y[i]) <= evaluation_rounding * most[i]) run->state->y[i] = 0;
 }
 
-/* Is the velocity on a plane within the error of the velocities of which it is the difference? The links are in place. */
-static bool is_slow(const struct run *run, int pair)
-{
-    const double tolerances = 100;
-    const struct plane_speed speed =
-        plane_speed(run->model, run->state->tree, run->model->plan.modes[pair].coupling);
-    return speed.slip <= tolerances * run->options.tolerance * fmax(speed.size, run->watchers.fast[pair]);
-}
-
-/* Has the velocity on a plane turned by a right angle from the direction in which it is watched? That is renewed
- * then. A slow one is a stop. */
-static bool only_turns(struct run *run, int pair)
-{
-    const struct instant at = state_instant(run->state);
-    tree_move(run->model, &at);
-    if (is_slow(run, pair)) return false;
-    plane_aim(run->model, run->state->tree, run->model->plan.modes[pair].coupling);
-    return true;
-}
-
-/* The other points of its body on the same plane that are at rest within that error stop with it. */
-static void stop_with(struct run *run, int pair)
-{
-    const struct tree *tree = run->model->tree;
-    for (int i = 0; i < tree->coupling_count; i++) {
-        const int other = tree->couplings[i].pair;
-        if (!planes_are_one(tree, i, run->model->plan.modes[pair].coupling)) continue;
-        if (run->state->slip[other] != stick && is_slow(run, other)) run->state->slip[other] = stick;
-    }
-}
-
 /* Set the relative velocity to exactly zero, as the event implies; settling decides the modes. */
 static void stop_slipping(struct run *run, int pair)
 {
     const struct mode *mode = &run->model->plan.modes[pair];
     struct instant at = state_instant(run->state);
     double acceleration;
-    if (mode->kind == mode_plane && only_turns(run, pair)) return;
+    if (mode->kind == mode_plane && plane_only_turns(run, pair)) return;
     if (mode->coupling >= 0) {
         run->state->slip[pair] = stick;
-        if (mode->kind == mode_plane) stop_with(run, pair);
+        if (mode->kind == mode_plane) plane_stop_with(run, pair);
         state_project_velocity(run->state, false);
         drop_rounding(run);
         return;

@@ -467,4 +467,8 @@ const char *run_kink_name(const struct run *run, const struct kink *kink);
 void run_fail(struct run *run, fbd_outcome outcome, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* Has a velocity on a plane only turned (plane_stop.c)? Else its point stops, and others of its body with it. */
+bool plane_only_turns(struct run *run, int pair);
+void plane_stop_with(struct run *run, int pair);
+
 #endif

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * The stop of a point that slips on a plane.
+ */
+#include "dynamics/plane_friction.h"
+#include "dynamics/tree.h"
+#include "loop/run.h"
+
+/* Is the velocity on a plane within the error of the velocities of which it is the difference? The links are in place. */
+static bool is_slow(const struct run *run, int pair)
+{
+    const double tolerances = 100;
+    const struct plane_speed speed =
+        plane_speed(run->model, run->state->tree, run->model->plan.modes[pair].coupling);
+    return speed.slip <= tolerances * run->options.tolerance * fmax(speed.size, run->watchers.fast[pair]);
+}
+
+/* Has the velocity on a plane turned by a right angle from the direction in which it is watched? That is renewed
+ * then. A slow one is a stop. */
+bool plane_only_turns(struct run *run, int pair)
+{
+    const struct instant at = state_instant(run->state);
+    tree_move(run->model, &at);
+    if (is_slow(run, pair)) return false;
+    plane_aim(run->model, run->state->tree, run->model->plan.modes[pair].coupling);
+    return true;
+}
+
+/* The other points of its body on the same plane that are at rest within that error stop with it. */
+void plane_stop_with(struct run *run, int pair)
+{
+    const struct tree *tree = run->model->tree;
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const int other = tree->couplings[i].pair;
+        if (!planes_are_one(tree, i, run->model->plan.modes[pair].coupling)) continue;
+        if (run->state->slip[other] != stick && is_slow(run, other)) run->state->slip[other] = stick;
+    }
+}
