@@ -45,6 +45,7 @@ BEYOND = {
     "surface_speed_that_jumps.yaml": "a function in an expression",
     "surface_speed_without_friction.yaml": "needed beside `surface_speed`",
     "reaction_in_a_force.yaml": "a name in an expression",
+    "reaction_of_a_later_body.yaml": "a name in an expression",
     "reaction_of_a_pin_in_a_force.yaml": "a name in an expression",
     "until_of_a_belt.yaml": "what the kind of coupling allows",
     "plane_without_normal.yaml": "needed unless the plane is horizontal",
