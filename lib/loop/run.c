@@ -9,6 +9,7 @@
 #include "dynamics/nonfinite.h"
 #include "dynamics/plane_friction.h"
 #include "dynamics/project.h"
+#include "loop/switch_event.h"
 #include "numeric/tolerances.h"
 
 /* Bind the right-hand side in the modes of the next step. */
