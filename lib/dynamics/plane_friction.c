@@ -60,7 +60,7 @@ static struct slip_of_point slip_now(const struct coupling *coupling, const stru
 void plane_follow(const struct view *view, const struct coupling *coupling, struct coupling_state *state)
 {
     const double rounding = solved_rounding; /* it sticks */
-    const double turned = 0.5;     /* by 60 degrees */
+    const double turned = 0.5;               /* by 60 degrees */
     const struct slip_of_point now = slip_now(coupling, view->work->links);
     const double speed = vec_norm(now.u);
     if (speed <= fmax(rounding * now.size, soft_speeds * state->nu)) return;

@@ -316,7 +316,8 @@ static bool room_init(struct room *room, size_t count)
         block_alloc(count * sizeof *room->points + numbers * sizeof(double) + 2 * count * sizeof(int));
     if (!room->points) return false;
     room->numbers = (double *)(room->points + count);
-    room->part = (int *)(room->numbers + numbers);
+    void *behind = room->numbers + numbers;
+    room->part = behind;
     room->member = room->part + count;
     return true;
 }

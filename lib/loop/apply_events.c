@@ -62,6 +62,7 @@ static void stop_slipping(struct run *run, int pair)
         if (mode->kind == mode_plane) plane_stop_with(run, pair);
         state_project_velocity(run->state, false);
         drop_rounding(run);
+        if (mode->kind == mode_plane) plane_drop_rounding(run, pair);
         return;
     }
     run->state->y[run->model->plan.n + mode->coordinate] = friction_surface_speed(mode, &at, &acceleration);

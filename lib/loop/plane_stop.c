@@ -5,6 +5,7 @@
 #include "dynamics/plane_friction.h"
 #include "dynamics/tree.h"
 #include "loop/run.h"
+#include "numeric/tolerances.h"
 
 /* Is the velocity on a plane within the error of the velocities of which it is the difference? The links are in place. */
 static bool is_slow(const struct run *run, int pair)
@@ -24,6 +25,21 @@ bool plane_only_turns(struct run *run, int pair)
     if (is_slow(run, pair)) return false;
     plane_aim(run->model, run->state->tree, run->model->plan.modes[pair].coupling);
     return true;
+}
+
+/* After the stop, set velocities of its body to zero that are at the round-off level of those that it had. */
+void plane_drop_rounding(struct run *run, int pair)
+{
+    const struct model_body *body = &run->model->bodies[run->model->plan.modes[pair].body];
+    const size_t n = (size_t)run->model->plan.n, first = (size_t)body->first, count = (size_t)body->count;
+    const double *most = run->recent.anchor + plan_size(&run->model->plan) + n + first;
+    const double gyration = sqrt(body->inertia.I_G / body->inertia.mass);
+    double size = 0, *v = run->state->y + n + first;
+    for (size_t k = 0; k < count; k++)
+        size = fmax(size, most[k] * (coordinate_is_angle(body, (int)k) ? gyration : 1));
+    for (size_t k = 0; k < count; k++)
+        if (fabs(v[k]) * (coordinate_is_angle(body, (int)k) ? gyration : 1) <= evaluation_rounding * size)
+            v[k] = 0;
 }
 
 /* The other points of its body on the same plane that are at rest within that error stop with it. */

@@ -470,5 +470,6 @@ void run_fail(struct run *run, fbd_outcome outcome, const char *format, ...)
 /* Has a velocity on a plane only turned (plane_stop.c)? Else its point stops, and others of its body with it. */
 bool plane_only_turns(struct run *run, int pair);
 void plane_stop_with(struct run *run, int pair);
+void plane_drop_rounding(struct run *run, int pair);
 
 #endif

@@ -54,8 +54,8 @@ void run_choose_method(struct run *run)
 int run_start_stepper(struct run *run)
 {
     const struct time_dd until = time_dd_at(run->options.until);
-    double probe = 0;
     if (run->flies || run->kind == structure_constant) {
+        double probe = 0;
         state_flow(run->state, run->work.f);
         for (size_t i = 0; i < plan_size(&run->model->plan); i++) probe += 0 * run->work.f[i];
         if (probe == 0)

@@ -68,7 +68,7 @@ static double share_of_two(struct builder *builder, const struct constraint *sou
 double plane_share(struct builder *builder, const struct constraint *source)
 {
     const struct model_body *body = &builder->model->bodies[source->body[0]];
-    struct vec r[3];
+    struct vec r[3] = {{0, 0}};
     if (source->points == 1) return 1;
     for (int k = 0; k < source->points; k++) r[k] = arm_of(body, &(source - source->place + k)->point[0]);
     return source->points == 2 ? share_of_two(builder, source, r) : share_of_three(builder, source, r);
@@ -125,7 +125,8 @@ void planes_check(struct builder *builder)
         const struct constraint *source =
             mode->coupling >= 0 ? model->tree->couplings[mode->coupling].source : NULL;
         if (others == 0 || !holds_by_more(mode)) continue;
-        if (!may_be_linked(model) && !(mode->kind == mode_plane && has_others(scene, source))) continue;
+        if (!may_be_linked(model) && !(source && mode->kind == mode_plane && has_others(scene, source)))
+            continue;
         const struct load *load = source ? NULL : model->loads[mode->load].source;
         refuse(builder, source ? source->name : load->name, source ? source->at : load->at);
         return;

@@ -134,7 +134,11 @@ static struct twist descend(const struct surface *of, struct twist v)
 static struct twist smooth_least(struct surface *of)
 {
     struct twist v = of->w;
-    for (of->smooth = 1; of->smooth > negligible_sum; of->smooth /= 10) v = descend(of, v);
+    of->smooth = 1;
+    while (of->smooth > negligible_sum) {
+        v = descend(of, v);
+        of->smooth /= 10;
+    }
     return v;
 }
 

@@ -183,7 +183,7 @@ static bool read_list(struct reader *reader, const struct node *list, bool conta
 static size_t name_points(struct reader *reader, size_t index, const char *name)
 {
     struct constraint *first = &reader->scene->constraints[index];
-    for (int k = 0; k < first->points; k++) first[k].name = arena_printf(reader->arena, "%s.%d", name, k + 1);
+    for (int k = 0; k < first->points; k++) first[k].name = arena_printf(reader->arena, "%s_%d", name, k + 1);
     return index + (size_t)first->points;
 }
 
@@ -199,6 +199,23 @@ static size_t name_constraint(struct reader *reader, size_t index, const char *n
     scene->constraints[index].name =
         arena_printf(reader->arena, "%s.%s", name, gear ? "friction" : "resistance");
     return index + 1;
+}
+
+/* The names of points are made: is none of them that of another coupling? */
+static bool points_have_own_names(struct reader *reader)
+{
+    const struct scene *scene = reader->scene;
+    for (size_t i = 0; i < scene->constraint_count; i++) {
+        const struct constraint *point = &scene->constraints[i];
+        for (size_t j = 0; point->points > 1 && j < scene->constraint_count; j++) {
+            if (j == i || !point->name || strcmp(point->name, scene->constraints[j].name) != 0) continue;
+            diag_add(reader->errors, FBD_ERROR, "duplicate-name", scene->constraints[j].at,
+                     "choose another name", "a point of `plane_friction` is called `%s` already",
+                     point->name);
+            return false;
+        }
+    }
+    return true;
 }
 
 /* The number of points in a list, beyond the first of each entry. */
@@ -235,5 +252,5 @@ bool couplings_read(struct reader *reader, const struct node *couplings, const s
         else
             constraint = name_constraint(reader, constraint, names[i].name);
     }
-    return true;
+    return points_have_own_names(reader);
 }

@@ -29,7 +29,8 @@ FORMS = {"name: value", "through: [a, drum, b]", "along", "y", "hysteresis(u, lo
 SHARE = 1 if "FBD_DRAWS" in os.environ else 12
 
 # Right hints, behind which another mistake of the file comes to light.
-BEFORE_OTHERS = {("slot_with_friction.yaml", "kinetic")}
+BEFORE_OTHERS = {("slot_with_friction.yaml", "kinetic"), ("plane_with_open_weight.yaml", "normal"),
+                 ("plane_with_open_weight.yaml", "points")}
 
 
 def notes(text, folder):

@@ -179,8 +179,8 @@ static void check_spin(struct checks *checks, struct random_numbers *numbers)
         spin, m, I, phi, omega, -a, a, mu, 1.5 * t);
     struct trial trial = run_text(text);
     const double theta = phi + spin * 1.5 * t + (omega - spin) * t / 2;
-    check_close(checks, "stops", trial_event(&trial, FBD_EVENT_STICK, "feet.1", 0), t, accuracy * t);
-    check_close(checks, "at once", trial_event(&trial, FBD_EVENT_STICK, "feet.2", 0), t, accuracy * t);
+    check_close(checks, "stops", trial_event(&trial, FBD_EVENT_STICK, "feet_1", 0), t, accuracy * t);
+    check_close(checks, "at once", trial_event(&trial, FBD_EVENT_STICK, "feet_2", 0), t, accuracy * t);
     check_close(checks, "theta", trial_get(&trial, "plank.theta"), theta, accuracy * (1 + fabs(theta)));
     check_close(checks, "omega", trial_get(&trial, "plank.omega"), spin, accuracy * 9);
     trial_close(&trial);
@@ -226,8 +226,8 @@ static void check_pivot(struct checks *checks, struct random_numbers *numbers)
         m, 0.3 * m * (a + b) * (a + b), rate, at, -a, b, mu, 1.001 * t);
     struct trial trial = run_text(text);
     const double theta = trial_get(&trial, "plank.theta");
-    check_close(checks, "pivots", trial_event(&trial, FBD_EVENT_BREAKAWAY, "feet.2", 0), t, accuracy * t);
-    check_that(checks, "the other one sticks", isnan(trial_event(&trial, FBD_EVENT_BREAKAWAY, "feet.1", 0)));
+    check_close(checks, "pivots", trial_event(&trial, FBD_EVENT_BREAKAWAY, "feet_2", 0), t, accuracy * t);
+    check_that(checks, "the other one sticks", isnan(trial_event(&trial, FBD_EVENT_BREAKAWAY, "feet_1", 0)));
     check_that(checks, "turns", theta > 0);
     check_close(checks, "about it", trial_get(&trial, "plank.x") - a * cos(theta), -a, accuracy * a);
     trial_close(&trial);
