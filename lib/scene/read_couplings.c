@@ -208,7 +208,8 @@ static bool points_have_own_names(struct reader *reader)
     for (size_t i = 0; i < scene->constraint_count; i++) {
         const struct constraint *point = &scene->constraints[i];
         for (size_t j = 0; point->points > 1 && j < scene->constraint_count; j++) {
-            if (j == i || !point->name || strcmp(point->name, scene->constraints[j].name) != 0) continue;
+            const char *other = scene->constraints[j].name;
+            if (j == i || !point->name || !other || strcmp(point->name, other) != 0) continue;
             diag_add(reader->errors, FBD_ERROR, "duplicate-name", scene->constraints[j].at,
                      "choose another name", "a point of `plane_friction` is called `%s` already",
                      point->name);
