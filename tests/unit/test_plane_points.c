@@ -296,7 +296,7 @@ static void check_system(struct checks *checks, struct random_numbers *numbers)
 static void scenes_agree_with_time_stepping(void **unused)
 {
     (void)unused;
-    const int draws = number_of("FBD_PLANES", draws_of(40));
+    const int draws = number_of("FBD_PLANES", draws_of(24));
     struct random_numbers numbers = {(uint64_t)number_of("FBD_SEED", 7202)};
     struct checks checks = {0};
     for (int i = 0; i < draws; i++) check_system(&checks, &numbers);
