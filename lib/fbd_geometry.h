@@ -67,11 +67,13 @@ typedef struct fbd_body {
 /* Body `index`; past the last one the name is NULL and the numbers are NAN or 0. */
 FBD_API fbd_body fbd_model_body(const fbd_model *model, size_t index);
 
+enum { FBD_MOST_CORNERS = 16 };
+
 typedef enum fbd_shape_kind {
     FBD_SHAPE_DOT,     /* no size: a point mass, a rod seen from its end */
     FBD_SHAPE_BAR,     /* slender: from corners[0] to corners[1] */
     FBD_SHAPE_CIRCLE,  /* centre and radius; inner > 0 for a ring or tube */
-    FBD_SHAPE_POLYGON, /* four corners, counter-clockwise */
+    FBD_SHAPE_POLYGON, /* convex; corners counter-clockwise */
     FBD_SHAPE_UNKNOWN, /* the file gives only a moment of inertia */
 } fbd_shape_kind;
 
@@ -80,8 +82,8 @@ typedef struct fbd_shape {
     fbd_shape_kind kind;
     bool hole; /* of negative mass: cut out of the others */
     double center[2], radius, inner;
-    size_t corner_count; /* 4 of a polygon, 2 of a bar, else 0 */
-    double corners[4][2];
+    size_t corner_count; /* 3 to FBD_MOST_CORNERS of a polygon, 2 of a bar, else 0 */
+    double corners[FBD_MOST_CORNERS][2];
 } fbd_shape;
 
 /* The parts of a body in the order of the file; past the last one the kind is FBD_SHAPE_UNKNOWN and numbers

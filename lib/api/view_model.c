@@ -100,7 +100,6 @@ fbd_shape fbd_model_shape(const fbd_model *model, size_t body, size_t index)
                                            [outline_circle] = FBD_SHAPE_CIRCLE,
                                            [outline_polygon] = FBD_SHAPE_POLYGON,
                                            [outline_unknown] = FBD_SHAPE_UNKNOWN};
-    static const size_t corners[] = {[outline_bar] = 2, [outline_polygon] = 4, [outline_unknown] = 0};
     if (index >= fbd_model_shape_count(model, body))
         return (fbd_shape){.kind = FBD_SHAPE_UNKNOWN, .center = {NAN, NAN}, .radius = NAN, .inner = NAN};
     const struct outline_part part = outline_of_part(&model->bodies[body].source->parts[index]);
@@ -109,7 +108,7 @@ fbd_shape fbd_model_shape(const fbd_model *model, size_t body, size_t index)
                        .center = PAIR(part.center),
                        .radius = part.radius,
                        .inner = part.inner,
-                       .corner_count = corners[part.kind]};
+                       .corner_count = part.count};
     for (size_t i = 0; i < shape.corner_count; i++) {
         shape.corners[i][0] = part.corner[i].x;
         shape.corners[i][1] = part.corner[i].y;

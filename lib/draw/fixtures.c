@@ -65,7 +65,8 @@ void panel_avoid_circle(struct panel *panel, struct vec center, double radius)
 static void draw_part(struct panel *panel, const fbd_shape *part)
 {
     struct text *text = &panel->under;
-    struct vec center = panel_point(panel, panel_place(panel, vec_of(part->center))), corners[4] = {{0, 0}};
+    struct vec center = panel_point(panel, panel_place(panel, vec_of(part->center))),
+               corners[FBD_MOST_CORNERS] = {{0, 0}};
     const char *css = part->hole ? "hole" : "body";
     for (size_t i = 0; i < part->corner_count; i++)
         corners[i] = panel_point(panel, panel_place(panel, vec_of(part->corners[i])));
@@ -81,9 +82,9 @@ static void draw_part(struct panel *panel, const fbd_shape *part)
         avoid_bar(panel, corners[0], corners[1]);
         break;
     case FBD_SHAPE_POLYGON:
-        svg_polygon(text, css, corners, 4);
-        for (int i = 0; i < 4; i++)
-            labelling_avoid(&panel->labels, corners[i], corners[(i + 1) % 4], on_outline);
+        svg_polygon(text, css, corners, part->corner_count);
+        for (size_t i = 0; i < part->corner_count; i++)
+            labelling_avoid(&panel->labels, corners[i], corners[(i + 1) % part->corner_count], on_outline);
         break;
     case FBD_SHAPE_UNKNOWN: break;
     }

@@ -31,7 +31,7 @@ static const struct words top_keys =
 static const struct words body_keys =
     WORDS("mass", "shape", "parts", "inertia", "points", "motion", "initial", "forces", "moments", "hand",
           "exact", "description", "length", "radius", "outer_radius", "inner_radius", "a", "b", "c", "axis",
-          "center", "angle", "from", "to");
+          "center", "angle", "from", "to", "corners");
 static const struct words motions = WORDS("slide", "pivot", "particle", "planar", "weld");
 static const struct words motion_keys = WORDS("along", "through", "line", "on", "at", "point", "angle", "x",
                                               "theta", "min", "max", "restitution");

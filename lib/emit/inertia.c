@@ -2,10 +2,12 @@
  *
  * Masses, centres of mass and moments of inertia, summed as in model/inertia.c, and the directions of slides.
  */
+#include <math.h>
 #include <string.h>
 
 #include "emit/bodies.h"
 #include "emit/live.h"
+#include "model/inertia.h"
 #include "scene/start_angle.h"
 
 static const char *number_of(struct emitter *emitter, const struct part *part, const char *owner,
@@ -81,6 +83,9 @@ const char *emit_rod_end(struct emitter *emitter, int b, const char *word, struc
 static const char *center_of(struct emitter *emitter, const struct part *part, const char *owner, int b)
 {
     const char *rod = emitter->rods[part_index(emitter, b, part)];
+    struct part plain = *part; /* the centre of a polygon has no key */
+    plain.at = (struct pos){0, 0};
+    if (part->shape == shape_polygon) part = &plain;
     if (rod) return emit_printf(emitter, "c->%s.center", rod);
     return emit_vector(emitter, emit_join(emitter, owner, "center"), part->center,
                        origin_in(part, "center", b));
@@ -137,6 +142,21 @@ static const char *given(struct emitter *emitter, const struct part *part, const
     return emit_printf(emitter, "%s - %s*%s", I, m, square);
 }
 
+/* The square of its radius of gyration is a number, since the corners are no parameters. */
+static const char *polygon(struct emitter *emitter, const struct part *part, const char *owner, const char *m)
+{
+    const struct part unit = {.shape = shape_polygon,
+                              .mass = 1,
+                              .center = part->center,
+                              .corner_count = part->corner_count,
+                              .corners = part->corners};
+    const double k = sqrt(inertia_of_parts(&unit, 1, part->center).I_G);
+    struct part plain = *part;
+    plain.at = (struct pos){0, 0};
+    return emit_printf(emitter, "%s*square(%s)", m,
+                       number_of(emitter, &plain, owner, "radius_of_gyration", k, DIM_LENGTH));
+}
+
 static const char *shape_inertia(struct emitter *emitter, const struct part *part, const char *owner,
                                  const char *m, int b)
 {
@@ -160,6 +180,7 @@ static const char *shape_inertia(struct emitter *emitter, const struct part *par
     case shape_cylinder: return cylinder(emitter, part, owner, m);
     case shape_hollow_cylinder: return hollow(emitter, part, owner, m);
     case shape_prism: return prism(emitter, part, owner, m);
+    case shape_polygon: return polygon(emitter, part, owner, m);
     case shape_given: return given(emitter, part, owner, m, b);
     }
     return "0";

@@ -149,8 +149,8 @@ static bool set_part(struct fbd_model *model, struct contact_shape *shape, const
         shape->center = placement_point(place, outline.center);
         shape->radius = outline.radius;
         return true;
-    case outline_polygon: return set_corners(model, shape, place, outline.corner, 4);
-    case outline_bar: return set_corners(model, shape, place, outline.corner, 2);
+    case outline_polygon:
+    case outline_bar: return set_corners(model, shape, place, outline.corner, (int)outline.count);
     case outline_dot:
     case outline_unknown: break;
     }

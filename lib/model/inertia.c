@@ -19,6 +19,20 @@ static double prism_inertia(const struct part *part)
     return part->mass * sum / 12;
 }
 
+/* About the centre of mass: the sum over the triangles from there to each side. */
+static double polygon_inertia(const struct part *part)
+{
+    double area = 0, sum = 0;
+    for (size_t i = 0; i < part->corner_count; i++) {
+        const struct vec a = vec_sub(part->corners[i], part->center),
+                         b = vec_sub(part->corners[(i + 1) % part->corner_count], part->center);
+        const double twice = vec_cross(a, b);
+        area += twice;
+        sum += twice * (vec_dot(a, a) + vec_dot(a, b) + vec_dot(b, b));
+    }
+    return part->mass * sum / (6 * area);
+}
+
 static double given_inertia(const struct part *part, struct vec pivot)
 {
     const double I = part->gyration > 0 ? part->mass * square(part->gyration) : part->inertia;
@@ -42,6 +56,7 @@ static double part_inertia(const struct part *part, struct vec pivot)
     case shape_cylinder: return about_axis(part->axis, m * R2 / 2, m * (3 * R2 + L2) / 12);
     case shape_hollow_cylinder: return about_axis(part->axis, m * both / 2, m * (3 * both + L2) / 12);
     case shape_prism: return prism_inertia(part);
+    case shape_polygon: return polygon_inertia(part);
     case shape_ring: return about_axis(part->axis, m * R2, m * R2 / 2);
     case shape_given: return given_inertia(part, pivot);
     }

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "model/outline.h"
 
+#include <string.h>
+
 static void set_bar(struct outline_part *outline, struct vec along, double length)
 {
     struct vec half = vec_scale(length / 2, along);
     outline->kind = outline_bar;
+    outline->count = 2;
     outline->corner[0] = vec_sub(outline->center, half);
     outline->corner[1] = vec_add(outline->center, half);
 }
@@ -18,6 +21,7 @@ static void set_rectangle(struct outline_part *outline, struct vec along, double
         return;
     }
     outline->kind = outline_polygon;
+    outline->count = 4;
     outline->corner[0] = vec_add(outline->center, vec_add(half, across));
     outline->corner[1] = vec_add(outline->center, vec_sub(across, half));
     outline->corner[2] = vec_sub(outline->center, vec_add(half, across));
@@ -60,6 +64,11 @@ struct outline_part outline_of_part(const struct part *part)
     case shape_prism:
         set_rectangle(&outline, along, part->side[faces ? 1 : 0], part->side[part->axis == 'z' ? 1 : 2]);
         break;
+    case shape_polygon:
+        outline.kind = outline_polygon;
+        outline.count = part->corner_count;
+        memcpy(outline.corner, part->corners, part->corner_count * sizeof *part->corners);
+        break;
     case shape_given:
         outline.kind = outline_unknown;
         if (part->rim > 0) {
@@ -82,17 +91,17 @@ static bool contains(const struct outline_part *outline, struct vec p)
         double r = vec_norm(vec_sub(p, outline->center));
         return r >= outline->inner && r <= outline->radius;
     }
-    int left = 0, right = 0;
-    for (int i = 0; i < 4; i++) {
-        struct vec from = outline->corner[i], to = outline->corner[(i + 1) % 4];
+    size_t left = 0, right = 0;
+    for (size_t i = 0; i < outline->count; i++) {
+        struct vec from = outline->corner[i], to = outline->corner[(i + 1) % outline->count];
         double side = vec_cross(vec_sub(to, from), vec_sub(p, from));
         left += side >= 0;
         right += side <= 0;
     }
-    return left == 4 || right == 4;
+    return left == outline->count || right == outline->count;
 }
 
-/* A hole is convex and symmetric, so its centre belongs to it and must lie in the material. A tube as a hole has no
+/* A hole is convex, so its centre belongs to it and must lie in the material. A tube as a hole has no
  * material to remove at its centre. */
 const struct part *outline_hole_outside(const struct body *body)
 {

@@ -11,7 +11,7 @@ enum outline_kind {
     outline_dot,     /* too small to have a size: a point mass, a rod seen from its end */
     outline_bar,     /* slender: from corner[0] to corner[1] */
     outline_circle,  /* center, radius; inner > 0 for a ring or tube */
-    outline_polygon, /* four corners */
+    outline_polygon, /* corners, convex, counter-clockwise */
     outline_unknown, /* the file gives only its moment of inertia */
 };
 
@@ -20,7 +20,8 @@ struct outline_part {
     bool hole; /* of negative mass: cut out of the others */
     struct vec center;
     double radius, inner;
-    struct vec corner[4];
+    size_t count; /* corners: 2 of a bar; of a polygon; else 0 */
+    struct vec corner[most_body_corners];
 };
 
 /* The shape of the part in the plane. */

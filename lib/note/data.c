@@ -70,7 +70,7 @@ static void write_shape(struct text *text, const fbd_shape *shape, const char *u
         value_write(text, shape->radius, unit, note_digits, false);
         break;
     case FBD_SHAPE_POLYGON:
-        text_add(text, "four corners, sides ");
+        text_printf(text, "%d corners, sides ", (int)shape->corner_count);
         for (size_t i = 0; i < shape->corner_count; i++) {
             if (i) text_add(text, i + 1 < shape->corner_count ? ", " : " and ");
             value_write(text, distance(shape->corners[i], shape->corners[(i + 1) % shape->corner_count]),

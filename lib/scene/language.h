@@ -186,7 +186,7 @@ struct part_keys {
     int shape, axis;
     double length, radius, outer_radius, inner_radius, a, b, c, angle;
     struct vec from, to, center;
-    const struct node *inertia;
+    const struct node *inertia, *corners;
 };
 
 struct body_keys {

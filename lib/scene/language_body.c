@@ -17,6 +17,7 @@ static const struct choice shapes[] = {
     {"rectangular_prism", shape_prism, "the same as prism"},
     {"ring", shape_ring, "thin, symmetric about x"},
     {"thin_ring", shape_ring, "the same as ring"},
+    {"polygon", shape_polygon, "a plate with `corners`, convex"},
 };
 
 static const struct choice axes[] = {
@@ -49,6 +50,8 @@ static const struct field part_fields[] = {
                  "side of a prism along its z axis"),
     FIELD_VECTOR(offsetof(struct part_keys, from), "from", a_length, "left end of a rod, in the body frame"),
     FIELD_VECTOR(offsetof(struct part_keys, to), "to", a_length, "right end of a rod, in the body frame"),
+    FIELD_ENTRIES(offsetof(struct part_keys, corners), "corners", field_list, 0, each_pair, NULL,
+                  "corners of a polygon, in order, in the body frame"),
     FIELD_VECTOR(offsetof(struct part_keys, center), "center", a_length,
                  "its centre of mass in the body frame; default [0, 0]"),
     FIELD_NUMBER(offsetof(struct part_keys, angle), "angle", an_angle, 0,

@@ -45,8 +45,11 @@ enum shape_kind {
     shape_hollow_cylinder, /* symmetric about x */
     shape_prism,           /* sides a, b, c along x, y, z */
     shape_ring,            /* thin, symmetric about x */
+    shape_polygon,         /* a plate with these corners */
     shape_given,           /* moment of inertia stated in the file */
 };
+
+enum { most_body_corners = 16 };
 
 /* One part of a body. `axis` ('x', 'y', 'z') is the axis of the shape that faces the plane, i.e. is
  * perpendicular to the drawing. */
@@ -60,6 +63,8 @@ struct part {
     double radius;       /* sphere, disc, ring; outer radius of a hollow cylinder */
     double inner_radius; /* hollow cylinder */
     double side[3];      /* prism: a, b, c */
+    size_t corner_count; /* polygon: at most most_body_corners ... */
+    struct vec *corners; /* ... counter-clockwise, in the body frame */
     struct vec center;   /* its centre of mass in the body frame */
     double angle;        /* of the shape's x axis in the body frame [rad] */
     double gyration;     /* shape_given: radius of gyration; 0 if not given */

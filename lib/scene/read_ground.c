@@ -159,25 +159,30 @@ static bool is_convex(const struct polygon *polygon)
     return turned < 1.5 * round;
 }
 
-static bool read_polygon(struct reader *reader, const struct pair *pair, struct polygon *polygon)
+bool polygon_read(struct reader *reader, const struct node *list, const char *key, struct polygon *polygon)
 {
-    const struct node *list = pair->value;
-    if (!name_check(reader->errors, pair->key, pair->at, "a polygon")) return false;
     if (list->kind != node_list || list->count < 3)
-        return value_refuse(reader, list, pair->key, "three corners or more, [[x, y], ...]", NULL);
+        return value_refuse(reader, list, key, "three corners or more, [[x, y], ...]", NULL);
     struct polygon read = {list->count, ARENA_ARRAY(reader->arena, list->count, struct vec)};
     if (!read.corners) return false;
     for (size_t i = 0; i < list->count; i++)
-        if (!value_vector(reader, list->items[i], pair->key, a_length, &read.corners[i])) return false;
+        if (!value_vector(reader, list->items[i], key, a_length, &read.corners[i])) return false;
     if (area_of(&read) < 0) reverse(&read);
     if (!is_convex(&read)) {
-        diag_add(reader->errors, FBD_ERROR, "not-convex", list->at,
-                 "cut it into convex ones, each with a contact of its own",
-                 "the polygon `%s` has a corner that points inwards, or corners in one line", pair->key);
+        diag_add(
+            reader->errors, FBD_ERROR, "not-convex", list->at,
+            "cut it into convex ones: of the ground each with a contact of its own, of a body as `parts`",
+            "the polygon `%s` has a corner that points inwards, or corners in one line", key);
         return false;
     }
     *polygon = read;
     return true;
+}
+
+static bool read_polygon(struct reader *reader, const struct pair *pair, struct polygon *polygon)
+{
+    return name_check(reader->errors, pair->key, pair->at, "a polygon") &&
+           polygon_read(reader, pair->value, pair->key, polygon);
 }
 
 static bool read_polygons(struct reader *reader)

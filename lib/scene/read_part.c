@@ -23,6 +23,7 @@ enum dimension {
     use_angle = 512,
     use_axis = 1024,
     use_center = 2048,
+    use_corners = 4096,
 };
 
 static const struct {
@@ -41,6 +42,7 @@ static const struct {
     {"angle", use_angle},
     {"axis", use_axis},
     {"center", use_center},
+    {"corners", use_corners},
 };
 
 enum { dimension_count = sizeof dimensions / sizeof *dimensions };
@@ -55,6 +57,7 @@ static unsigned taken_by(enum shape_kind shape)
     case shape_hollow_cylinder: return placed | use_outer_radius | use_inner_radius | use_length;
     case shape_prism: return placed | use_a | use_b | use_c;
     case shape_ring: return placed | use_radius;
+    case shape_polygon: return use_corners;
     case shape_point:
     case shape_given: break;
     }
@@ -78,6 +81,7 @@ static unsigned needed_by(enum shape_kind shape, char axis)
     case shape_ring: return use_radius;
     case shape_cylinder: return use_radius | across;
     case shape_hollow_cylinder: return use_outer_radius | use_inner_radius | across;
+    case shape_polygon: return use_corners;
     case shape_prism: return axis == 'x' ? use_b | use_c : axis == 'y' ? use_a | use_c : use_a | use_b;
     case shape_point:
     case shape_given: break;
@@ -228,6 +232,35 @@ static bool place_rod(struct reader *reader, const struct node *map, const struc
     return false;
 }
 
+/* The centre of mass of a plate: that of the triangles from its first corner. */
+static struct vec center_of(const struct polygon *polygon)
+{
+    struct vec sum = {0, 0}, base = polygon->corners[0];
+    double area = 0;
+    for (size_t i = 1; i + 1 < polygon->count; i++) {
+        const struct vec a = vec_sub(polygon->corners[i], base), b = vec_sub(polygon->corners[i + 1], base);
+        const double twice = vec_cross(a, b);
+        sum = vec_add(sum, vec_scale(twice / 3, vec_add(a, b)));
+        area += twice;
+    }
+    return vec_add(base, vec_scale(1 / area, sum));
+}
+
+static bool place_polygon(struct reader *reader, const struct part_keys *keys, struct part *part)
+{
+    struct polygon polygon;
+    if (keys->corners->count > most_body_corners) {
+        diag_add(reader->errors, FBD_ERROR, "out-of-range", keys->corners->at, "divide it into `parts`",
+                 "a polygon of a body has at most %d corners", (int)most_body_corners);
+        return false;
+    }
+    if (!polygon_read(reader, keys->corners, "corners", &polygon)) return false;
+    part->corner_count = polygon.count;
+    part->corners = polygon.corners;
+    part->center = center_of(&polygon);
+    return true;
+}
+
 /* Numbers that could not be read stay NaN, which passes all checks below, so that no second note is given. */
 static struct part_keys no_keys(void)
 {
@@ -263,6 +296,7 @@ static bool read_part(struct reader *reader, int body, const struct node *map, s
     if (!check_taken(reader, map, shape)) fine = false;
     if (!check_needed(reader, map, at, shape, axis)) fine = false;
     if (shape == shape_rod && fine) return check_rod(reader, map) && place_rod(reader, map, keys, part);
+    if (shape == shape_polygon && fine) return place_polygon(reader, keys, part);
     if (shape == shape_hollow_cylinder && fine) return check_tube(reader, map, keys);
     return fine;
 }

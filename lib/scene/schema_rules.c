@@ -31,6 +31,7 @@ static const struct {
     {"prism", "a+b b+c a+c"},
     {"rectangular_prism", "a+b b+c a+c"},
     {"ring", "radius"},
+    {"polygon", "corners"},
     {"thin_ring", "radius"},
 };
 

@@ -281,28 +281,14 @@ bool value_flag(struct reader *reader, const struct node *node, const char *what
 static const char *usual_choice(fbd_errors *errors, const char *word, const char *const *names, size_t count)
 {
     static const char *const words[][2] = {
-        {"ball", "sphere"},
-        {"box", "prism"},
-        {"block", "prism"},
-        {"cube", "prism"},
-        {"brick", "prism"},
-        {"rectangle", "prism"},
-        {"plate", "prism"},
-        {"wheel", "disc"},
-        {"circle", "disc"},
-        {"roller", "disc"},
-        {"pulley", "disc"},
-        {"bar", "rod"},
-        {"beam", "rod"},
-        {"stick", "rod"},
-        {"line", "rod"},
-        {"hoop", "ring"},
-        {"tube", "hollow_cylinder"},
-        {"particle", "point"},
-        {"mass", "point"},
-        {"rk45", "rkf45"},
-        {"ode45", "rk8pd"},
-        {"implicit", "rodas5p"},
+        {"ball", "sphere"},    {"box", "prism"},        {"block", "prism"},
+        {"cube", "prism"},     {"brick", "prism"},      {"rectangle", "prism"},
+        {"plate", "prism"},    {"triangle", "polygon"}, {"wheel", "disc"},
+        {"circle", "disc"},    {"roller", "disc"},      {"pulley", "disc"},
+        {"bar", "rod"},        {"beam", "rod"},         {"stick", "rod"},
+        {"line", "rod"},       {"hoop", "ring"},        {"tube", "hollow_cylinder"},
+        {"particle", "point"}, {"mass", "point"},       {"rk45", "rkf45"},
+        {"ode45", "rk8pd"},    {"implicit", "rodas5p"},
     };
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         for (size_t k = 0; k < count && strcmp(word, words[i][0]) == 0; k++)

@@ -74,6 +74,48 @@ static void every_row_of_the_table_holds_for_the_axis_that_faces_the_plane(void 
     checks_end(&checks);
 }
 
+/* A triangle of base b and height h: m (b^2 + h^2)/18 about G for a right angle, G at a third; a regular hexagon of side a:
+ * 5 m a^2/12; corners in either order; a rectangle is a prism; a plate of an L is two rectangles. */
+static void polygons_follow_their_formulas(void **unused)
+{
+    (void)unused;
+    const double m = 3, b = 0.6, h = 0.4, a = 0.2, arithmetic = 1e-14;
+    struct checks checks = {0};
+    const fbd_inertia right =
+        inertia_of("    shape: polygon\n    mass: 3 kg\n    corners: [[1, 2], [1.6, 2], [1, 2.4]]\n",
+                   "planar");
+    check_close(&checks, "triangle", right.I_G, m * (b * b + h * h) / 18, arithmetic);
+    check_close(&checks, "G.x", right.G[0], 1 + b / 3, arithmetic);
+    check_close(&checks, "G.y", right.G[1], 2 + h / 3, arithmetic);
+    const fbd_inertia clockwise =
+        inertia_of("    shape: polygon\n    mass: 3 kg\n    corners: [[1, 2.4], [1.6, 2], [1, 2]]\n",
+                   "planar");
+    check_close(&checks, "clockwise", clockwise.I_G, right.I_G, arithmetic);
+    const fbd_inertia hexagon =
+        inertia_of("    shape: polygon\n    mass: 3 kg\n    corners: [[0.2, 0], [0.1, 0.173205080756887729], "
+                   "[-0.1, 0.173205080756887729], [-0.2, 0], [-0.1, -0.173205080756887729], "
+                   "[0.1, -0.173205080756887729]]\n",
+                   "planar");
+    check_close(&checks, "hexagon", hexagon.I_G, 5 * m * a * a / 12, arithmetic);
+    const fbd_inertia pivot =
+        inertia_of("    shape: polygon\n    mass: 3 kg\n    corners: [[0, 0], [-0.3, -0.4], [0.3, -0.4]]\n",
+                   "pivot");
+    check_close(&checks, "about a corner", pivot.I_O, m * (b * b / 24 + h * h / 2), arithmetic);
+    const fbd_inertia by_polygons = inertia_of(
+        "    parts:\n"
+        "      p: {shape: polygon, mass: 4 kg, corners: [[0, 0], [0.4, 0], [0.4, 0.1], [0, 0.1]]}\n"
+        "      q: {shape: polygon, mass: 3 kg, corners: [[0, 0.1], [0.1, 0.1], [0.1, 0.4], [0, 0.4]]}\n",
+        "planar");
+    const fbd_inertia by_prisms =
+        inertia_of("    parts:\n"
+                   "      p: {shape: prism, mass: 4 kg, a: 0.4, b: 0.1, center: [0.2, 0.05]}\n"
+                   "      q: {shape: prism, mass: 3 kg, a: 0.1, b: 0.3, center: [0.05, 0.25]}\n",
+                   "planar");
+    check_close(&checks, "an L", by_polygons.I_G, by_prisms.I_G, arithmetic);
+    check_close(&checks, "its G", by_polygons.G[0], by_prisms.G[0], arithmetic);
+    checks_end(&checks);
+}
+
 static void rings_and_cylinders_across_follow_their_formulas(void **unused)
 {
     (void)unused;
@@ -230,6 +272,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_row_of_the_table_holds_for_the_axis_that_faces_the_plane),
+        cmocka_unit_test(polygons_follow_their_formulas),
         cmocka_unit_test(rings_and_cylinders_across_follow_their_formulas),
         cmocka_unit_test(an_inertia_may_be_stated_about_any_point),
         cmocka_unit_test(parts_add_up_about_their_common_centre),
