@@ -274,7 +274,8 @@ static void compare(struct checks *checks, const struct trial *trial, const stru
                 3 * fabs(fine.omega - coarse.omega) + 1e-3);
 }
 
-/* Where a point passes near zero velocity both of these motions may stick for a step: then shorter ones decide. */
+/* Where a point passes near zero velocity, of 3e-6 m/s for example, both of these motions may stick for a step though the true
+ * one slips: then shorter ones decide. */
 static void check_system(struct checks *checks, struct random_numbers *numbers)
 {
     const double until = 1;
@@ -282,14 +283,16 @@ static void check_system(struct checks *checks, struct random_numbers *numbers)
     struct motion at;
     const struct system s = draw_system(numbers, &at);
     struct trial trial = open_system(&s, &at, until);
-    struct checks seen = {0};
+    static const int steps[] = {4000, 64000, 2048000};
+    struct checks seen = {.failed = 1};
     trial_start(&trial, NULL);
     trial_finish(&trial);
-    compare(&seen, &trial, &s, at, 4000, until);
-    if (seen.failed > 0) {
-        print_message("# seed %llu: again with shorter steps\n", (unsigned long long)seed);
-        compare(checks, &trial, &s, at, 64000, until);
+    for (int i = 0; i < 3 && seen.failed > 0; i++) {
+        if (i > 0) print_message("# seed %llu: again with shorter steps\n", (unsigned long long)seed);
+        seen = (struct checks){0};
+        compare(&seen, &trial, &s, at, steps[i], until);
     }
+    checks->failed += seen.failed;
     trial_close(&trial);
 }
 
