@@ -34,6 +34,51 @@ static double choose(enum absolute_kind kind, struct motion_of_point at, double 
     return 0;
 }
 
+/* ---- accelerations of a prescribed motion
+ *
+ * q'' is the second derivative of its expression, exact. A point at r from the axis of a pivot has a = q'' k x r - w^2 r, a
+ * point of a slide q'' e. */
+
+static bool is_acceleration(enum absolute_kind kind)
+{
+    return kind == absolute_acceleration || kind == absolute_ax || kind == absolute_ay;
+}
+
+/* Also its variation along a direction, unless `along` is NULL. Of a body that is not driven 0: derivations set that. */
+static double driven_acceleration(const struct fbd_model *model, const struct model_absolute *absolute,
+                                  const struct instant *at, const struct direction *along, double *variation)
+{
+    const struct model_body *body = &model->bodies[absolute->body];
+    const struct mode *mode = body->drive_pair < 0 ? NULL : &model->plan.modes[body->drive_pair];
+    double q2 = 0, dq2 = 0;
+    *variation = 0;
+    if (!mode) return 0;
+    friction_surface_speed(mode, at, &q2);
+    if (along) dq2 = friction_surface_jerk(mode, at) * along->dt;
+    *variation = dq2;
+    if (absolute->kind == absolute_acceleration) return q2;
+    const bool x = absolute->kind == absolute_ax;
+    struct vec a, da = {0, 0};
+    if (body->joint->path == path_line) {
+        const struct vec e = model->tree->links[body->place.link].e; /* on the ground */
+        a = vec_scale(q2, e);
+        da = vec_scale(dq2, e);
+    } else {
+        const struct pose pose = body_pose(body, at);
+        const struct vec r = point_arm(body, &pose, absolute->point);
+        const double w = pose.omega;
+        a = vec_sub(vec_scale(q2, vec_perp(r)), vec_scale(w * w, r));
+        if (along) {
+            const struct tree_variation *d = &at->tree->variation[body->place.link];
+            const struct vec dr = vec_scale(d->angle, vec_perp(r));
+            da = vec_add(vec_scale(dq2, vec_perp(r)), vec_scale(q2, vec_perp(dr)));
+            da = vec_sub(da, vec_add(vec_scale(2 * w * d->omega, r), vec_scale(w * w, dr)));
+        }
+    }
+    *variation = x ? da.x : da.y;
+    return x ? a.x : a.y;
+}
+
 /* ---- the slip speed of a friction constraint
  *
  * slip = |v - s|, computed as sigma (v - s) in the mode sigma: smooth across the end of a mode, as required
@@ -143,6 +188,11 @@ void world_refs_write(const struct fbd_model *model, const struct instant *at, d
             places[k] = input_at(model, absolute->coordinate, at, y);
             continue;
         }
+        if (is_acceleration(absolute->kind)) {
+            double variation;
+            places[k] = driven_acceleration(model, absolute, at, NULL, &variation);
+            continue;
+        }
         if (absolute->kind == absolute_mass) places[k] = body_mass(body, at);
         if (absolute->kind == absolute_mass || absolute->kind == absolute_mass_rate) continue;
         struct pose pose = body_pose(body, at);
@@ -186,6 +236,11 @@ static double varied(const struct fbd_model *model, const struct model_absolute 
     if (absolute->kind == absolute_mass) {
         double variation;
         formula_along(&body->mass, at, along, &variation);
+        return variation;
+    }
+    if (is_acceleration(absolute->kind)) {
+        double variation;
+        driven_acceleration(model, absolute, at, along, &variation);
         return variation;
     }
     if (absolute->kind == absolute_mass_rate) return body_mass_rate_along(model, body, at, along);

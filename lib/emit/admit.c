@@ -200,6 +200,22 @@ static void check_events(const struct fbd_model *model, fbd_errors *errors)
     }
 }
 
+/* An expression may name the acceleration of a body with a prescribed motion. */
+static void check_places(const struct fbd_model *model, fbd_errors *errors)
+{
+    const struct scene *scene = model->scene;
+    for (size_t k = 0; k < scene->absolute_count; k++) {
+        const struct absolute *absolute = &scene->absolutes[k];
+        const enum absolute_kind kind = absolute->kind;
+        if (!absolute->moves ||
+            !(kind == absolute_acceleration || kind == absolute_ax || kind == absolute_ay))
+            continue;
+        lacks(errors, scene->bodies[absolute->body].at, "an expression that names its acceleration",
+              scene->bodies[absolute->body].name);
+        return;
+    }
+}
+
 static void check_calls(const struct fbd_model *model, fbd_errors *errors)
 {
     for (size_t i = 0; i < model->scene->parameter_count; i++)
@@ -224,6 +240,7 @@ bool emit_admits(const struct fbd_model *model, fbd_errors *errors)
         if (scene->bodies[b].assemble)
             lacks(errors, scene->bodies[b].at, "a start that is found from couplings", scene->bodies[b].name);
     check_calls(model, errors);
+    check_places(model, errors);
     check_events(model, errors);
     check_loads(model, errors);
     check_masses(model, errors);

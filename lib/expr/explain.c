@@ -234,12 +234,11 @@ static const char *acceleration_hint(struct parser *p, const char *name)
         return diag_hint(
             p->errors,
             "an acceleration follows from the forces and is known behind them only: `output: {points: "
-            "[%.*s]}` writes it; of a prescribed motion write the second derivative of its expression",
+            "[%.*s]}` writes it; only of a body that is driven on the ground may a value depend on it",
             (int)(dot - name), name);
     if (ends_as(name, of_coordinates, sizeof of_coordinates / sizeof *of_coordinates - letters))
         return "an acceleration follows from the forces and is known behind them only: `output` writes it; "
-               "of a "
-               "prescribed motion write the second derivative of its expression";
+               "only of a body with a prescribed motion may a value of another body depend on it";
     return NULL;
 }
 

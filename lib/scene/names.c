@@ -30,7 +30,7 @@ static struct symbol dotted_symbol(const struct names *names, const char *name, 
     struct symbol own = coordinate_symbol(names, index, dot + 1);
     if (own.kind == symbol_unknown) own = mass_symbol(names, index, dot + 1);
     if (own.kind == symbol_unknown) own = joint_reaction_symbol(names, index, dot + 1, at);
-    if (own.kind == symbol_unknown && names->place == place_hand)
+    if (own.kind == symbol_unknown && (names->place == place_hand || names_is_driven(reader, index)))
         own = other_acceleration_symbol(names, index, dot + 1);
     if (own.kind == symbol_unknown && names->place == place_hand)
         own = hand_place_symbol(names, index, dot + 1);

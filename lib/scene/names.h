@@ -89,6 +89,9 @@ struct symbol hand_symbol(const struct names *names, const char *name);
 struct symbol name_of_place(struct reader *reader, int body, const struct point *point,
                             enum absolute_kind kind);
 
+/* Is its motion prescribed, so that its acceleration is known without the forces? */
+bool names_is_driven(const struct reader *reader, int body);
+
 /* The variable of a quantity of struct absolute, the same one at every use. */
 struct symbol names_absolute(struct reader *reader, enum place place, const struct absolute *wanted);
 

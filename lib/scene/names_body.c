@@ -140,6 +140,19 @@ struct symbol name_of_place(struct reader *reader, int body, const struct point 
     return names_absolute(reader, place_load, &absolute);
 }
 
+bool names_is_driven(const struct reader *reader, int body)
+{
+    return reader->drafts[body].motion_keys.prescribed != NULL;
+}
+
+/* Accelerations of points in the world are known where the body is driven on the ground along a line or about an axis. */
+static bool accelerates_as_known(const struct reader *reader, int body)
+{
+    const enum motion_kind kind = reader->scene->bodies[body].motion.kind;
+    return names_is_driven(reader, body) && !reader->drafts[body].motion_keys.on &&
+           (kind == motion_slide || kind == motion_pivot);
+}
+
 /* `angle`, `x`, `y` and their rates in the world; with `of_point` without `angle`. */
 static bool absolute_kind_of(const char *name, bool of_point, enum absolute_kind *kind)
 {
@@ -153,11 +166,14 @@ static bool absolute_kind_of(const char *name, bool of_point, enum absolute_kind
         {"vy", "y_dot", absolute_vy},
         {"angle", "angle", absolute_angle},
         {"angle_dot", "angle_dot", absolute_angle_dot},
+        {"ax", "a_x", absolute_ax},
+        {"ay", "a_y", absolute_ay},
     };
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         if (!matches(name, known[i].name, known[i].alias)) continue;
         *kind = known[i].kind;
-        return !of_point || known[i].kind < absolute_angle;
+        return of_point == (known[i].kind == absolute_ax || known[i].kind == absolute_ay) ||
+               known[i].kind < absolute_angle;
     }
     return false;
 }
@@ -191,6 +207,8 @@ struct symbol absolute_symbol(const struct names *names, int body, const char *n
         return names_absolute(reader, names->place, &absolute);
     }
     if (!absolute_kind_of(dot + 1, true, &absolute.kind)) return unknown;
+    const bool accelerates = absolute.kind == absolute_ax || absolute.kind == absolute_ay;
+    if (accelerates && !accelerates_as_known(reader, body)) return unknown;
     if (!names_point(owner, name, (size_t)(dot - name), &absolute.point)) return unknown;
     return names_absolute(reader, names->place, &absolute);
 }

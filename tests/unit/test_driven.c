@@ -291,6 +291,42 @@ static void a_drive_beyond_its_reach_ends_the_run_by_name(void **unused)
     checks_end(&checks);
 }
 
+/* A force -m q'' on a mass m moves it by q(0) + q'(0) t - q(t), and m P'' of a point P by P(t) - P(0) - P'(0) t. */
+static void forces_may_name_accelerations_that_are_prescribed(void **unused)
+{
+    (void)unused;
+    struct checks checks = {0};
+    static const char *const methods[] = {NULL, "dop853", "rodas5p", "msbdf"};
+    static const char text[] =
+        "fbd: 1\nbodies:\n"
+        "  table: {mass: 5, motion: {slide: {along: 20 deg, x: \"0.1[m]*sin(6[1/s]*t)\"}}}\n"
+        "  arm: {mass: 1, shape: rod, length: 1 m, motion: {pivot: {at: [3, 0], point: left, "
+        "theta: \"0.5[rad/s^2]*t^2\"}}}\n"
+        "  rider: {mass: 1, inertia: 0.1, motion: {pivot: {on: table, theta: \"0.3*sin(2[1/s]*t)\"}}}\n"
+        "  a: {mass: 2, motion: slide, initial: {v: 0.2}, forces: [applied: {value: "
+        "\"-2[kg]*table.v_dot\"}]}\n"
+        "  b: {mass: 2, motion: particle, forces: [applied: {fx: \"2[kg]*arm.right.ax\", fy: "
+        "\"2[kg]*arm.right.ay\"}]}\n"
+        "  c: {mass: 2, motion: slide, forces: [applied: {value: \"2[kg*m]*rider.omega_dot\"}]}\n"
+        "  d: {mass: 2, motion: slide, forces: [applied: {value: \"2[kg]*table.G.ay\"}]}\n"
+        "simulate: {until: 1.5}\n";
+    const double t = 1.5, table = 0.1 * sin(6 * t), theta = t * t / 2;
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
+        struct trial trial = trial_parse(text);
+        trial_start(&trial, &(fbd_options){.until = NAN, .method = methods[i]});
+        trial_finish(&trial);
+        check_close(&checks, "against the table", trial_get(&trial, "a.x"), 0.2 * t + 0.6 * t - table, 1e-8);
+        check_close(&checks, "with the point, x", trial_get(&trial, "b.x"), cos(theta) - 1, 1e-8);
+        check_close(&checks, "with the point, y", trial_get(&trial, "b.y"), sin(theta), 1e-8);
+        check_close(&checks, "relative to a body", trial_get(&trial, "c.x"), 0.3 * sin(2 * t) - 0.6 * t,
+                    1e-8);
+        check_close(&checks, "a point of the slide", trial_get(&trial, "d.x"),
+                    (table - 0.6 * t) * sin(20 * 3.14159265358979323846 / 180), 1e-8);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 /* A rod of 1 m draws a block along its guide, from a slider that rises with 1 m/s to y = 0.5 + t: with x = sqrt(1 - y^2),
  * a = -1/x^3, N_0 = m (g + a y/x), N = N_0/(1 + mu y/x) above zero, N_0/(1 - mu y/x) below. Where mu y/x > 1 neither
  * agrees once N_0 < 0, from y/(1 - y^2)^2 = g on. In a slot it is the same. */
@@ -387,6 +423,7 @@ int main(void)
         cmocka_unit_test(a_drive_with_switches_is_assembled),
         cmocka_unit_test(a_drive_at_a_constant_place_holds),
         cmocka_unit_test(a_drive_beyond_its_reach_ends_the_run_by_name),
+        cmocka_unit_test(forces_may_name_accelerations_that_are_prescribed),
         cmocka_unit_test(friction_that_feeds_its_normal_force_is_named),
         cmocka_unit_test(what_jams_does_not_go_on),
     };
