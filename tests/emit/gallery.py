@@ -137,6 +137,8 @@ def missing(name, text):
         return new[1] or new[2]
     if re.search(r"{.*\b(from|until): [^,}]*[<>]", re.split(r"\n(?:couplings|simulate):", text)[0]):
         return "begins or ends"
+    if re.search(r"\b(value|fx|fy): .*\.(v_dot|omega_dot|ax|ay)\b", text):
+        return "names its acceleration"
     if re.search(r"\bfriction: {.*\bbearing: ", text):
         return "friction that depends on the reaction"
     couplings = text.partition("\ncouplings:")[2].partition("\nsimulate:")[0].partition("\ncontacts:")[0]
