@@ -343,10 +343,10 @@ bool rest_find_margin(struct rest_system *system, enum rest_scope scope, const d
                             .margin = margin};
     const bool planes = scope == rest_all && system->state->model->tree->plane_count > 0;
     rest_restore(system);
-    if (planes) rest_cut_planes(system, HUGE_VAL);
+    if (planes) rest_cut_planes(system, lambda_along, HUGE_VAL);
     bool found = find_once(&search);
     for (int cut = 0; planes && found && cut < most_cuts; cut++) {
-        if (!rest_cut_planes(system, margin->value - rest_margin_slack(margin) / 4)) break;
+        if (!rest_cut_planes(system, lambda_along, margin->value - rest_margin_slack(margin) / 4)) break;
         found = find_once(&search);
     }
     return found && !system->arena->failed;

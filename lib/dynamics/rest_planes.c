@@ -117,6 +117,14 @@ static bool sticks(const struct rest_system *system, int index)
            !coupling_is_gone(system->at.tree, coupling);
 }
 
+double rest_plane_limit(const struct rest_system *system)
+{
+    double most = 0, rate;
+    for (int i = 0; i < system->state->model->tree->coupling_count; i++)
+        if (sticks(system, i)) most = fmax(most, limit_of(system, i, NULL, &rate));
+    return most;
+}
+
 /* The points at which the body of point `first` sticks to the same plane; 0 if it is not the first of them. */
 static int find_group(const struct rest_system *system, int first, int *group)
 {
@@ -149,26 +157,53 @@ static struct vec arm_of(const struct rest_system *system, const struct coupling
     return vec_turn(link->turn, coupling->end[0].point);
 }
 
+/* The sum of the forces at the points of a limit, and their moment about r = 0; as force_at. */
+struct load_on_points {
+    struct vec F;
+    double M;
+};
+
+static struct load_on_points load_of(const struct rest_system *system, const struct rest_cut *cut,
+                                     const struct limit_point *points, const double *lambda)
+{
+    struct load_on_points load = {{0, 0}, 0};
+    for (int i = 0; i < cut->count; i++) {
+        const struct vec f = vec_turn(system->at.tree->couplings[cut->coupling[i]].e,
+                                      force_at(system, cut->coupling[i], lambda));
+        load.F = vec_add(load.F, f);
+        if (cut->count > 1) load.M += vec_cross(points[i].r, f);
+    }
+    return load;
+}
+
+/* Is the load round-off of the limits? Then its direction is that of its rate of change. */
+static bool is_none(const struct load_on_points *load, const struct limit_point *points, int count)
+{
+    double limit = 0, moment = 0;
+    for (int i = 0; i < count; i++) {
+        limit += points[i].c;
+        moment += points[i].c * vec_norm(points[i].r);
+    }
+    return vec_norm(load->F) <= round_off(64, limit) && fabs(load->M) <= round_off(64, moment);
+}
+
 /* Set the velocities of a limit to those by which it is the nearest to the present forces. */
-static bool aim(const struct rest_system *system, struct rest_cut *cut)
+static bool aim(const struct rest_system *system, struct rest_cut *cut, const double *lambda_along)
 {
     struct limit_point *points = ARENA_ARRAY(system->arena, (size_t)cut->count, struct limit_point);
-    struct vec F = {0, 0}, center = {0, 0};
-    double M = 0, rate;
+    struct vec center = {0, 0};
+    double rate;
     if (!points) return false;
     for (int i = 0; i < cut->count; i++)
         center = vec_add(center,
                          vec_scale(1. / cut->count, arm_of(system, coupling_at(system, cut->coupling[i]))));
     for (int i = 0; i < cut->count; i++) {
-        const struct coupling *coupling = coupling_at(system, cut->coupling[i]);
-        const struct vec e = system->at.tree->couplings[cut->coupling[i]].e;
-        const struct vec f = vec_turn(e, force_at(system, cut->coupling[i], NULL));
-        points[i].r = vec_sub(arm_of(system, coupling), center);
+        points[i].r = vec_sub(arm_of(system, coupling_at(system, cut->coupling[i])), center);
         points[i].c = limit_of(system, cut->coupling[i], NULL, &rate);
-        F = vec_add(F, f);
-        M += vec_cross(points[i].r, f);
     }
-    limit_surface_normal(points, (size_t)cut->count, F, cut->count > 1 ? M : 0);
+    struct load_on_points load = load_of(system, cut, points, NULL);
+    if (lambda_along && is_none(&load, points, cut->count)) load = load_of(system, cut, points, lambda_along);
+    limit_surface_normal(points, (size_t)cut->count, load.F, load.M);
     for (int i = 0; i < cut->count; i++) {
         const struct vec e = system->at.tree->couplings[cut->coupling[i]].e;
         cut->u[i] = (struct vec){vec_dot(e, points[i].u), vec_cross(e, points[i].u)};
@@ -177,25 +212,28 @@ static bool aim(const struct rest_system *system, struct rest_cut *cut)
 }
 
 /* Add the nearest limit of some points if it is below `level`. */
-static bool add_cut(struct rest_system *system, const int *group, int count, double level)
+static bool add_cut(struct rest_system *system, const int *group, int count, const double *lambda_along,
+                    double level)
 {
     struct rest_bound *bound = new_bound(system, count);
     if (!bound) return false;
     bound->cut.count = count;
     memcpy(bound->cut.coupling, group, (size_t)count * sizeof *group);
-    const bool below = aim(system, &bound->cut) && rest_cut_value(system, &bound->cut, NULL, true) < level;
+    const bool below =
+        aim(system, &bound->cut, lambda_along) && rest_cut_value(system, &bound->cut, NULL, true) < level;
     if (!below) system->bound_count--;
     return below;
 }
 
-bool rest_cut_planes(struct rest_system *system, double level)
+bool rest_cut_planes(struct rest_system *system, const double *lambda_along, double level)
 {
     const struct tree *tree = system->state->model->tree;
     int *group = ARENA_ARRAY(system->arena, (size_t)tree->coupling_count + 1, int);
     bool any = false;
     for (int i = 0; group && i < tree->coupling_count; i++) {
         const int count = sticks(system, i) ? find_group(system, i, group) : 0;
-        if (count > 0 && is_open(system, group, count)) any |= add_cut(system, group, count, level);
+        if (count > 0 && is_open(system, group, count))
+            any |= add_cut(system, group, count, lambda_along, level);
     }
     return any;
 }
@@ -204,6 +242,6 @@ bool rest_cut_points(struct rest_system *system, double slack)
 {
     bool any = false;
     for (int i = 0; i < system->state->model->tree->coupling_count; i++)
-        if (sticks(system, i)) any |= add_cut(system, &i, 1, -slack);
+        if (sticks(system, i)) any |= add_cut(system, &i, 1, NULL, -slack);
     return any;
 }

@@ -38,6 +38,7 @@ static bool find_sizes(struct rest_system *system)
     system->force = fmax(system->force, couple / system->length);
     /* Where all loads vanish, as at the neutral position of a spring: a millionth of the weights. */
     system->force = fmax(system->force, distinct_part * heaviest * vec_norm(model->scene->gravity));
+    system->force = fmax(system->force, rest_plane_limit(system));
     return arrows != NULL;
 }
 

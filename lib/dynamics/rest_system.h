@@ -34,7 +34,7 @@
 struct rest_cut {
     int count;
     int *coupling; /* count */
-    struct vec *u; /* count: along both rows of the coupling; the sum of their magnitudes is 1 */
+    struct vec *u; /* count: along both rows of the coupling (numeric/limit_surface.h) */
 };
 
 /* A limit in force, as a function h >= 0 of the forces: of a normal force, of the tension of a rope, of the loaded side of a
@@ -201,9 +201,13 @@ void rest_cut_gives(const struct rest_system *system, const struct rest_cut *cut
                     int *gives, struct vec *aims);
 void rest_cut_mark(const struct rest_system *system, const struct rest_cut *cut, bool *of);
 
+/* The largest force that friction on a plane can bear at a point [N], the size of loads that it bears; 0 without planes. */
+double rest_plane_limit(const struct rest_system *system);
+
 /* Add limits of the bodies that stick at several points, or at points that share forces with others, where these are below
- * `level` [N] at the present forces. False when none is added, or memory is out. */
-bool rest_cut_planes(struct rest_system *system, double level);
+ * `level` [N] at the present forces, or those to come at rates `lambda_along` where there are none. False when none is added,
+ * or memory is out. */
+bool rest_cut_planes(struct rest_system *system, const double *lambda_along, double level);
 
 /* Add limits of single points whose forces exceed them by more than `slack` [N]. */
 bool rest_cut_points(struct rest_system *system, double slack);

@@ -159,12 +159,13 @@ static void set_surface(struct surface *of, struct vec F, double M)
 
 static void set_velocities(const struct surface *of, struct twist v, size_t at_rest)
 {
-    double all = 0;
+    double phi = 0, all = 0;
     for (size_t i = 0; i < of->count; i++) {
         of->points[i].u = i == at_rest ? (struct vec){0, 0} : velocity(of, i, v);
-        all += vec_norm(of->points[i].u);
+        phi += of->points[i].c * vec_norm(of->points[i].u);
+        all += of->points[i].c;
     }
-    for (size_t i = 0; i < of->count && all > 0; i++) of->points[i].u = vec_scale(1 / all, of->points[i].u);
+    for (size_t i = 0; i < of->count && phi > 0; i++) of->points[i].u = vec_scale(all / phi, of->points[i].u);
 }
 
 void limit_surface_normal(struct limit_point *points, size_t count, struct vec F, double M)

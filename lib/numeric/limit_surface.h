@@ -19,11 +19,11 @@
 struct limit_point {
     struct vec r; /* its arm [m] */
     double c;     /* the limit of its friction [N] */
-    struct vec u; /* set: its velocity; the sum of their magnitudes is 1 */
+    struct vec u; /* set: its velocity, such that sum c_i |u_i| = sum c_i */
 };
 
 /* Find the velocities u for which (F . V + M Omega)/Phi is largest; without a load those along x. F [N] is at r = 0, M [N m]
- * about it. */
+ * about it. With their size sum c_i - F . V - M Omega is continuous in the load, also where that passes zero. */
 void limit_surface_normal(struct limit_point *points, size_t count, struct vec F, double M);
 
 #endif
