@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "loop/contacts.h"
 
-#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -39,10 +38,11 @@ static bool meetings_init(struct contacts_work *work, const struct fbd_model *mo
     work->bounces = ARENA_ARRAY(memory, meetings, struct bounces);
     work->was_closed = ARENA_ARRAY(memory, 3 * couplings, bool);
     work->asleep = ARENA_ARRAY(memory, meetings, bool);
-    work->deep = ARENA_ARRAY(memory, meetings, double);
+    work->deep = ARENA_ARRAY(memory, 2 * meetings, double);
     work->touched = ARENA_ARRAY(memory, meetings, int);
     work->trial = state_make(model, NULL, memory);
     if (memory->failed || !work->trial) return false;
+    work->phase_rate = work->deep + meetings;
     work->touching = work->was_closed + couplings;
     work->moves = work->touching + couplings;
     for (size_t i = 0; i < meetings; i++)

@@ -69,6 +69,7 @@ struct contacts_work {
     struct bounces *bounces; /* of each contact pair */
     struct bounces tugs;     /* of ropes that become taut and contacts that land, alternately */
     bool *asleep;            /* of each contact pair: too far apart for the step */
+    double *phase_rate;      /* of each contact pair: of its gap in the step [rad/s] (run_contact_radians) */
     int *touched;            /* of each contact pair: touching features at the last check */
     double *deep;            /* of each contact pair: overlap left open at a corner next to another side */
     bool *touching;          /* of each coupling: scratch */

@@ -33,24 +33,24 @@ static double turning(const struct run *run, const struct contact_shape *shape)
     return turn;
 }
 
-/* Radians by rotation, and by shapes that pass each other: an overlap lasts no longer than a displacement by
- * their size. */
+/* Radians per second by rotation, and by shapes that pass each other: an overlap lasts no longer than a displacement by
+ * their size. At the place of `trial`. */
+static double phase_rate(const struct run *run, int index, double speed)
+{
+    const struct contact_shape *shapes = tree_of(run)->meetings[index].shape;
+    const double size = shapes[0].radius + shapes[1].radius;
+    const double turn = fmax(turning(run, &shapes[0]), turning(run, &shapes[1])); /* both may turn */
+    const bool flat = shapes[1].kind == contact_line; /* the gap of a line is linear in position */
+    return 2 * turn + (flat || size <= 0 ? 0 : 2 * speed / size);
+}
+
 double run_contact_radians(const struct run *run, double span)
 {
-    const struct contacts_work *work = &run->contacts;
-    const struct tree *tree = tree_of(run);
-    double turn = 0, pass = 0;
+    double most = 0;
     if (!has_meetings(run->model)) return 0;
-    for (int i = 0; i < tree->meeting_count; i++) {
-        const struct contact_shape *shapes = tree->meetings[i].shape;
-        double size = shapes[0].radius + shapes[1].radius;
-        bool flat = shapes[1].kind == contact_line; /* the gap of a line is linear in position */
-        if (work->asleep[i]) continue;
-        for (int k = 0; k < 2; k++) turn = fmax(turn, turning(run, &shapes[k]));
-        if (flat || size <= 0) continue;
-        pass = fmax(pass, meeting_distance(run->model, work->trial->tree, i).speed / size);
-    }
-    return (2 * turn + 2 * pass) * span; /* both shapes of a pair may turn */
+    for (int i = 0; i < tree_of(run)->meeting_count; i++)
+        if (!run->contacts.asleep[i]) most = fmax(most, run->contacts.phase_rate[i]);
+    return most * span;
 }
 
 static void place(struct fbd_state *state)
@@ -60,7 +60,7 @@ static void place(struct fbd_state *state)
 }
 
 /* Speeds within a step are about those at its ends; a factor of two, and a check at the end of the step,
- * allow for more. */
+ * allow for more. Of both ends the faster one counts: a body may stop at the end, behind one that it has passed. */
 void run_wake_contacts(struct run *run, double end)
 {
     const double speeds = 2;
@@ -74,6 +74,7 @@ void run_wake_contacts(struct run *run, double end)
         struct distance at = meeting_distance(run->model, trial->tree, i);
         work->asleep[i] =
             meeting_is_gone(trial->tree, &tree_of(run)->meetings[i]) || at.apart > speeds * span * at.speed;
+        work->phase_rate[i] = phase_rate(run, i, at.speed);
     }
     memcpy(trial->y, run->work.y, plan_size(&run->model->plan) * sizeof *trial->y);
     trial->t = end;
@@ -82,6 +83,7 @@ void run_wake_contacts(struct run *run, double end)
         struct distance at = meeting_distance(run->model, trial->tree, i);
         work->asleep[i] &=
             meeting_is_gone(trial->tree, &tree_of(run)->meetings[i]) || at.apart > speeds * span * at.speed;
+        work->phase_rate[i] = fmax(work->phase_rate[i], phase_rate(run, i, at.speed));
     }
 }
 

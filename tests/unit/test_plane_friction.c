@@ -233,6 +233,33 @@ static void check_pivot(struct checks *checks, struct random_numbers *numbers)
     trial_close(&trial);
 }
 
+/* A push at G, from zero, on a plank whose points a and b are on one side of G turns it about the stronger one, a: at
+ * F a = c_b |b - a|. The bodies have loads from another point on, or only a couple beside: F a - M. */
+static void check_ramp(struct checks *checks, struct random_numbers *numbers)
+{
+    const double a = random_between(numbers, 0.1, 0.4), b = random_between(numbers, -0.4, 0.4);
+    const double mu = random_between(numbers, 0.1, 0.8), N = random_between(numbers, 10, 90);
+    const double weak = N * random_between(numbers, 0.05, 0.2), way = random_between(numbers, -3, 3);
+    const double rate = random_between(numbers, 1, 9), couple = rate * a * random_between(numbers, 0, 0.5);
+    const double t = mu * weak * fabs(b - a) / (rate * a + couple);
+    char text[900];
+    snprintf(
+        text, sizeof text,
+        "fbd: 1\nplane: horizontal\nbodies:\n  plank: {mass: 2, inertia: 0.3, motion: planar, initial: "
+        "{theta: "
+        "%.17g}, forces: [applied: {fy: \"%.17g[N/s]*t\", frame: body}], moments: [applied: {value: "
+        "\"%.17g[N*m/s]*t\"}]}\ncouplings:\n"
+        "  - plane_friction: {name: strong, body: plank, at: [%.17g, 0], kinetic: %.17g, normal: %.17g}\n"
+        "  - plane_friction: {name: weak, body: plank, at: [%.17g, 0], kinetic: %.17g, normal: %.17g}\n"
+        "simulate: {until: %.17g}\n",
+        way, rate, -couple, a, mu, N, b, mu, weak, 1.001 * t);
+    struct trial trial = run_text(text);
+    check_close(checks, "turns", trial_event(&trial, FBD_EVENT_BREAKAWAY, "weak", 0), t, accuracy * t);
+    check_that(checks, "the other one sticks", isnan(trial_event(&trial, FBD_EVENT_BREAKAWAY, "strong", 0)));
+    check_that(checks, "to the right", trial_get(&trial, "plank.omega") < 0);
+    trial_close(&trial);
+}
+
 /* Two pucks on a rod break away together, whatever the direction of the push: they translate at F = 2 mu m g where it passes
  * their middle. */
 static void check_pair(struct checks *checks, struct random_numbers *numbers)
@@ -289,7 +316,7 @@ static void motions_have_closed_forms(void **unused)
                                  struct random_numbers * numbers) = {check_puck,  check_belt,   check_coin,
                                                                      check_pull,  check_return, check_sled,
                                                                      check_hit,   check_spin,   check_sledge,
-                                                                     check_pivot, check_pair};
+                                                                     check_pivot, check_ramp,   check_pair};
     const int draws = draws_of(40);
     struct random_numbers numbers = {7201};
     struct checks checks = {0};
