@@ -325,8 +325,31 @@ static void motions_have_closed_forms(void **unused)
     checks_end(&checks);
 }
 
+/* A disc slides towards one that is at rest, and would stop beyond it: the steps may end anywhere, also at that stop. */
+static void a_disc_that_would_stop_beyond_another_strikes_it(void **unused)
+{
+    (void)unused;
+    const double v = 2.5, mu = 0.3, way = 0.52, t = (v - sqrt(v * v - 2 * mu * g * way)) / (mu * g);
+    struct checks checks = {0};
+    for (int i = 0; i < 150; i++) {
+        char text[600];
+        snprintf(
+            text, sizeof text,
+            "fbd: 1\nplane: horizontal\nbodies:\n  a: {shape: disc, radius: 0.05, mass: 0.2, motion: planar, "
+            "initial: {vx: %.17g}}\n  b: {shape: disc, radius: 0.05, mass: 90, motion: planar, initial: {x: "
+            "%.17g}}\ncouplings: [plane_friction: {body: a, kinetic: %.17g}]\ncontacts: [{between: [a, b], "
+            "restitution: 0.5}]\nsimulate: {until: %.17g}\n",
+            v, way + 0.1, mu, 0.3 + 0.03 * i);
+        struct trial trial = run_text(text);
+        check_close(&checks, "strikes", trial_event(&trial, FBD_EVENT_IMPACT, NULL, 0), t, accuracy * t);
+        trial_close(&trial);
+    }
+    checks_end(&checks);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(motions_have_closed_forms)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(motions_have_closed_forms),
+                                       cmocka_unit_test(a_disc_that_would_stop_beyond_another_strikes_it)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
