@@ -18,15 +18,10 @@
  * as well, and then e is renewed only. In the microseconds of a start an explicit method may still turn u: where that
  * could break other friction away the scene is refused (model/plane_check.c).
  *
- * At rest the forces lambda_i of the points that may stick minimize
- *
- *     1/2 lambda . W lambda + b . lambda,   |lambda_i| <= c_i,
- *
- * with W the accelerations by unit forces and b those without them (the principle of Gauss with dissipation; J. J.
- * Moreau, in Nonsmooth Mechanics and Applications, Springer 1988). Those inside of their disc stick. The
- * acceleration of the others is opposite to their force, which is the direction in which they begin to slip. It is
- * solved by relaxation, disc by disc: each is a problem of two unknowns, W_ii + s 1 with s >= 0 such that
- * |lambda_i| = c_i. W is positive semidefinite, so that accelerations are unique, and forces if W is regular.
+ * At rest the forces of the points that may stick minimize 1/2 lambda . W lambda + b . lambda with |lambda_i| <= c_i, by the
+ * principle of Gauss with dissipation (numeric/disc_forces.h; J. J. Moreau, in Nonsmooth Mechanics and Applications, Springer
+ * 1988): with W the accelerations by unit forces and b those without them. Those inside of their disc stick. The acceleration of
+ * the others is opposite to their force, which is the direction in which they begin to slip.
  *
  * An impact has no impulse of this friction, which is bounded.
  */

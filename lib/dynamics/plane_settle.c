@@ -7,6 +7,7 @@
 #include "dynamics/plane_friction.h"
 #include "dynamics/state.h"
 #include "dynamics/tree_system.h"
+#include "numeric/disc_forces.h"
 #include "numeric/tolerances.h"
 
 /* The points at rest relative to their planes, without their forces. */
@@ -14,11 +15,9 @@ struct at_rest {
     struct fbd_state *state;
     struct instant at; /* with all of them loose */
     int count;
-    int *pair;      /* count */
-    bool *slips;    /* count: it has begun to slip, or is at its limit */
-    double *radius; /* count: c */
-    double *b, *W;  /* 2 count; its square */
-    struct vec *f;  /* count: the forces, along e and k x e */
+    int *pair;                   /* count */
+    double *radius, *b, *W;      /* count: c; 2 count; its square */
+    struct disc_problem problem; /* with these; forces along e and k x e */
 };
 
 /* ---- the problem */
@@ -57,13 +56,21 @@ static bool follow(struct fbd_state *state, const struct decided *decided, int p
 static bool make_room(struct at_rest *rest, struct arena *arena)
 {
     const size_t pairs = rest->state->model->plan.mode_count, count = (size_t)rest->count;
-    rest->slips = ARENA_ARRAY(arena, count, bool);
     rest->radius = ARENA_ARRAY(arena, count, double);
     rest->b = ARENA_ARRAY(arena, 2 * count, double);
     rest->W = ARENA_ARRAY(arena, 4 * count * count, double);
-    rest->f = ARENA_ARRAY(arena, count, struct vec);
+    rest->problem = (struct disc_problem){
+        .count = count,
+        .W = rest->W,
+        .b = rest->b,
+        .c = rest->radius,
+        .f = ARENA_ARRAY(arena, count, struct vec),
+        .slips = ARENA_ARRAY(arena, count, bool),
+        .room = ARENA_ARRAY(arena, disc_forces_room(count), double),
+        .pivot = ARENA_ARRAY(arena, 2 * count, size_t),
+    };
     int *trial = ARENA_ARRAY(arena, pairs, int);
-    if (!rest->slips || !rest->radius || !rest->b || !rest->W || !rest->f || !trial) return false;
+    if (arena->failed) return false;
     memcpy(trial, rest->state->slip, pairs * sizeof *trial);
     for (int i = 0; i < rest->count; i++) trial[rest->pair[i]] = loose;
     rest->at.slip = trial;
@@ -108,93 +115,19 @@ static void add_column(struct at_rest *rest, int column)
 
 /* ---- its solution */
 
-/* A disc: A f + b = -s f with s >= 0 and |f| <= c. In the principal axes of A. */
-struct disc {
-    double a[2]; /* principal values */
-    struct vec axis;
-    double c;
-};
-
-static struct disc disc_of(const struct at_rest *rest, int i)
-{
-    const size_t size = 2 * (size_t)rest->count;
-    const double *A = &rest->W[2 * (size_t)i * (size + 1)];
-    const double mean = (A[0] + A[size + 1]) / 2, half = (A[0] - A[size + 1]) / 2;
-    const double across = (A[1] + A[size]) / 2, spread = hypot(half, across);
-    return (struct disc){{mean + spread, mean - spread}, vec_unit(atan2(across, half) / 2), rest->radius[i]};
-}
-
-/* -(A + s 1)^-1 b in the principal axes; a direction in which nothing yields has no force. */
-static struct vec force_at(const struct disc *disc, struct vec b, double s)
-{
-    const double immovable = negligible_sum, least = immovable * disc->a[0];
-    return (struct vec){disc->a[0] + s > 0 ? -b.x / (disc->a[0] + s) : 0,
-                        disc->a[1] + s > least ? -b.y / (disc->a[1] + s) : 0};
-}
-
-/* The force of a disc. 1/|f| grows nearly linearly with s: Newton's method on 1/|f| = 1/c from s = 0 is monotonic (J. J.
- * More and D. C. Sorensen, SIAM J. Sci. Stat. Comput. 4, 1983, 553). `b` is the acceleration without it. */
-static struct vec disc_force(const struct disc *disc, struct vec b, bool *slips)
-{
-    enum { most_steps = 60 };
-    const struct vec own = {vec_dot(disc->axis, b), vec_cross(disc->axis, b)};
-    struct vec f = force_at(disc, own, 0);
-    double s = 0;
-    *slips = vec_norm(f) > (1 + negligible_sum) * disc->c || disc->c == 0;
-    if (disc->c == 0) return (struct vec){0, 0};
-    for (int step = 0; *slips && step < most_steps; step++) {
-        const double size = vec_norm(f);
-        const double slope = (f.x * f.x / (disc->a[0] + s) + f.y * f.y / (disc->a[1] + s)) / (size * size);
-        const double change = (size / disc->c - 1) / slope;
-        s += change;
-        f = force_at(disc, own, s);
-        if (!(change > negligible_sum * s)) break;
-    }
-    if (*slips) f = vec_scale(disc->c / vec_norm(f), f);
-    return vec_turn(disc->axis, f);
-}
-
-/* The acceleration of point i by all forces but its own. */
-static struct vec by_others(const struct at_rest *rest, int i)
-{
-    const size_t size = 2 * (size_t)rest->count, first = 2 * (size_t)i;
-    double sum[2] = {rest->b[first], rest->b[first + 1]};
-    for (int k = 0; k < 2; k++) {
-        const double *answers = rest->W + (first + (size_t)k) * size;
-        for (int j = 0; j < rest->count; j++, answers += 2)
-            if (j != i) sum[k] += answers[0] * rest->f[j].x + answers[1] * rest->f[j].y;
-    }
-    return (struct vec){sum[0], sum[1]};
-}
-
-static void relax(struct at_rest *rest)
-{
-    enum { most_sweeps = 20000 };
-    double change = 1;
-    for (int sweep = 0; sweep < most_sweeps && change > evaluation_rounding; sweep++) {
-        change = 0;
-        for (int i = 0; i < rest->count; i++) {
-            const struct disc disc = disc_of(rest, i);
-            const struct vec f = disc_force(&disc, by_others(rest, i), &rest->slips[i]);
-            if (disc.c > 0) change = fmax(change, vec_norm(vec_sub(f, rest->f[i])) / disc.c);
-            rest->f[i] = f;
-        }
-    }
-}
-
 /* Points that are at their limit slip with kinetic friction, by which others may exceed theirs. */
 static void solve(struct at_rest *rest, const struct decided *decided)
 {
     bool more = true;
     for (int round = 0; more && round <= rest->count; round++) {
         more = false;
-        relax(rest);
+        disc_forces_find(&rest->problem);
         for (int i = 0; i < rest->count; i++) {
             const int pair = rest->pair[i];
             const double kinetic =
                 friction_coefficient(rest->state->model, pair, &mode_of(rest->state, pair)->mu_k, &rest->at,
                                      NULL, NULL);
-            const bool breaks = rest->slips[i] || (decided && decided->slips[pair]);
+            const bool breaks = rest->problem.slips[i] || (decided && decided->slips[pair]);
             if (!breaks || !(kinetic < rest->radius[i])) continue;
             rest->radius[i] = fmax(0, kinetic);
             more = true;
@@ -221,9 +154,9 @@ static bool set_mode(struct at_rest *rest, int i, const struct decided *decided)
 {
     struct fbd_state *state = rest->state;
     const int pair = rest->pair[i], before = state->slip[pair];
-    const struct vec a = by_others(rest, i);
-    const struct vec way = vec_norm(rest->f[i]) > 0 ? vec_scale(-1, rest->f[i]) : a;
-    const bool slips = rest->slips[i] || (decided && decided->slips[pair]);
+    const struct vec a = disc_forces_by_others(&rest->problem, (size_t)i);
+    const struct vec way = vec_norm(rest->problem.f[i]) > 0 ? vec_scale(-1, rest->problem.f[i]) : a;
+    const bool slips = rest->problem.slips[i] || (decided && decided->slips[pair]);
     state->slip[pair] = slips ? slip_plus : stick;
     if (slips) plane_set_out(state, pair, way);
     return state->slip[pair] == before;

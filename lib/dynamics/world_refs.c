@@ -36,45 +36,49 @@ static double choose(enum absolute_kind kind, struct motion_of_point at, double 
 
 /* ---- accelerations of a prescribed motion
  *
- * q'' is the second derivative of its expression, exact. A point at r from the axis of a pivot has a = q'' k x r - w^2 r, a
- * point of a slide q'' e. */
+ * q'' is the second derivative of its expression, exact. A point has a = q'' g - w^2 r: on a slide g = e and w = 0, and at r from
+ * the axis of a pivot g = k x r. */
 
 static bool is_acceleration(enum absolute_kind kind)
 {
     return kind == absolute_acceleration || kind == absolute_ax || kind == absolute_ay;
 }
 
+/* The acceleration of a point, and its variation unless `along` is NULL. Arms and directions turn with the body. */
+static struct vec point_acceleration(const struct fbd_model *model, const struct model_absolute *absolute,
+                                     const struct instant *at, const struct direction *along, double q2,
+                                     double dq2, struct vec *variation)
+{
+    const struct model_body *body = &model->bodies[absolute->body];
+    const struct pose pose = body_pose(body, at);
+    const struct vec r = point_arm(body, &pose, absolute->point);
+    const bool slides = body->joint->path == path_line;
+    const struct vec g = slides ? model->tree->links[body->place.link].e : vec_perp(r); /* on the ground */
+    const double w = pose.omega;
+    if (along) {
+        const struct tree_variation *d = &at->tree->variation[body->place.link];
+        const struct vec turned = vec_add(vec_scale(q2, vec_perp(g)), vec_scale(-w * w, vec_perp(r)));
+        const struct vec slower = vec_sub(vec_scale(dq2, g), vec_scale(2 * w * d->omega, r));
+        *variation = vec_add(vec_scale(d->angle, turned), slower);
+    }
+    return vec_sub(vec_scale(q2, g), vec_scale(w * w, r));
+}
+
 /* Also its variation along a direction, unless `along` is NULL. Of a body that is not driven 0: derivations set that. */
 static double driven_acceleration(const struct fbd_model *model, const struct model_absolute *absolute,
                                   const struct instant *at, const struct direction *along, double *variation)
 {
-    const struct model_body *body = &model->bodies[absolute->body];
-    const struct mode *mode = body->drive_pair < 0 ? NULL : &model->plan.modes[body->drive_pair];
-    double q2 = 0, dq2 = 0;
+    const int pair = model->bodies[absolute->body].drive_pair;
+    double q2 = 0;
+    struct vec da = {0, 0};
     *variation = 0;
-    if (!mode) return 0;
+    if (pair < 0) return 0;
+    const struct mode *mode = &model->plan.modes[pair];
     friction_surface_speed(mode, at, &q2);
-    if (along) dq2 = friction_surface_jerk(mode, at) * along->dt;
-    *variation = dq2;
+    *variation = along ? friction_surface_jerk(mode, at) * along->dt : 0;
     if (absolute->kind == absolute_acceleration) return q2;
+    const struct vec a = point_acceleration(model, absolute, at, along, q2, *variation, &da);
     const bool x = absolute->kind == absolute_ax;
-    struct vec a, da = {0, 0};
-    if (body->joint->path == path_line) {
-        const struct vec e = model->tree->links[body->place.link].e; /* on the ground */
-        a = vec_scale(q2, e);
-        da = vec_scale(dq2, e);
-    } else {
-        const struct pose pose = body_pose(body, at);
-        const struct vec r = point_arm(body, &pose, absolute->point);
-        const double w = pose.omega;
-        a = vec_sub(vec_scale(q2, vec_perp(r)), vec_scale(w * w, r));
-        if (along) {
-            const struct tree_variation *d = &at->tree->variation[body->place.link];
-            const struct vec dr = vec_scale(d->angle, vec_perp(r));
-            da = vec_add(vec_scale(dq2, vec_perp(r)), vec_scale(q2, vec_perp(dr)));
-            da = vec_sub(da, vec_add(vec_scale(2 * w * d->omega, r), vec_scale(w * w, dr)));
-        }
-    }
     *variation = x ? da.x : da.y;
     return x ? a.x : a.y;
 }

@@ -55,7 +55,8 @@ void welds_check(struct builder *builder);
  * (plane_check.c). */
 double plane_share(struct builder *builder, const struct constraint *source);
 
-/* Reject more static than kinetic friction on planes that are linked (plane_check.c). */
+/* Reject the weight as the force on the plane of a body that carries others, and more static than kinetic friction on planes
+ * that are linked (plane_check.c). */
 void planes_check(struct builder *builder);
 
 /* Reject contacts between points that do not move on one line (contact_points.c). */

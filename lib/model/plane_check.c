@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * The forces of a body on the points that it rests on: in equilibrium with its weight at the centre of mass. Two points are
- * in line with that; three are not in one line.
+ * in line with that; three are not in one line. The weight of the body alone is the force on its plane only if no other body
+ * rests on it.
  *
  * Reject static friction that the start of a slip on a plane could break. As a body begins to slip, its friction has
  * the direction of a velocity near zero, which is known to rounding only. Where that force reaches dry friction of any
@@ -74,6 +75,48 @@ double plane_share(struct builder *builder, const struct constraint *source)
     return source->points == 2 ? share_of_two(builder, source, r) : share_of_three(builder, source, r);
 }
 
+/* ---- bodies that carry others */
+
+/* The number of points on which a body lies on planes. */
+static int points_under(const struct scene *scene, int body)
+{
+    int count = 0;
+    for (size_t i = 0; i < scene->constraint_count; i++)
+        count += scene->constraints[i].kind == constraint_plane && scene->constraints[i].body[0] == body;
+    return count;
+}
+
+/* A body whose weight is on `carrier`: it lies there on its face, or is fixed to it and lies on no other plane; else -1. */
+static int carried_by(const struct fbd_model *model, int carrier)
+{
+    const struct scene *scene = model->scene;
+    for (size_t i = 0; i < scene->constraint_count; i++) {
+        const struct constraint *joins = &scene->constraints[i];
+        if (joins->kind == constraint_plane && joins->body[1] == carrier) return joins->body[0];
+        for (int k = 0; joins->kind == constraint_weld && k < 2; k++)
+            if (joins->body[k] == carrier && joins->body[1 - k] != ground_body &&
+                points_under(scene, joins->body[1 - k]) == 0)
+                return joins->body[1 - k];
+    }
+    for (int b = 0; b < (int)model->body_count; b++)
+        if (model->bodies[b].parent == carrier && model->bodies[b].inertia.mass > 0 &&
+            points_under(scene, b) == 0)
+            return b;
+    return -1;
+}
+
+static void check_weight(struct builder *builder, const struct constraint *source)
+{
+    const struct model_body *bodies = builder->model->bodies;
+    if (source->kind != constraint_plane || source->normal.expr || source->place > 0) return;
+    const int carried = carried_by(builder->model, source->body[0]);
+    if (carried < 0) return;
+    diag_add(builder->errors, FBD_ERROR, "missing-key", source->at,
+             "write `normal`, with the weight of all that it carries",
+             "`%s` carries `%s`: the force on its plane is larger than its own weight",
+             bodies[source->body[0]].name, bodies[carried].name);
+}
+
 /* ---- static friction */
 
 /* Does it transmit forces between bodies? The plane of a driven body does not: its motion is given. */
@@ -81,16 +124,6 @@ static bool links(const struct fbd_model *model, const struct constraint *source
 {
     if (source->kind != constraint_plane) return true;
     return source->body[1] != ground_body && model->bodies[source->body[1]].drive < 0;
-}
-
-/* Does its body lie on another point, too? */
-static bool has_others(const struct scene *scene, const struct constraint *source)
-{
-    bool any = false;
-    for (const struct constraint *other = scene->constraints;
-         other < scene->constraints + scene->constraint_count; other++)
-        any |= other != source && other->kind == constraint_plane && other->body[0] == source->body[0];
-    return any;
 }
 
 static bool may_be_linked(const struct fbd_model *model)
@@ -117,15 +150,17 @@ void planes_check(struct builder *builder)
     const struct fbd_model *model = builder->model;
     const struct scene *scene = model->scene;
     int planes = 0;
-    for (size_t i = 0; i < scene->constraint_count; i++)
+    for (size_t i = 0; i < scene->constraint_count; i++) {
+        check_weight(builder, &scene->constraints[i]);
         planes += scene->constraints[i].kind == constraint_plane;
+    }
     for (size_t i = 0; planes > 0 && i < model->plan.mode_count; i++) {
         const struct mode *mode = &model->plan.modes[i];
         const int others = planes - (mode->kind == mode_plane);
         const struct constraint *source =
             mode->coupling >= 0 ? model->tree->couplings[mode->coupling].source : NULL;
         if (others == 0 || !holds_by_more(mode)) continue;
-        if (!may_be_linked(model) && !(source && mode->kind == mode_plane && has_others(scene, source)))
+        if (!may_be_linked(model) && !(mode->kind == mode_plane && points_under(scene, source->body[0]) > 1))
             continue;
         const struct load *load = source ? NULL : model->loads[mode->load].source;
         refuse(builder, source ? source->name : load->name, source ? source->at : load->at);

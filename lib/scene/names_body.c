@@ -148,9 +148,9 @@ bool names_is_driven(const struct reader *reader, int body)
 /* Accelerations of points in the world are known where the body is driven on the ground along a line or about an axis. */
 static bool accelerates_as_known(const struct reader *reader, int body)
 {
-    const enum motion_kind kind = reader->scene->bodies[body].motion.kind;
-    return names_is_driven(reader, body) && !reader->drafts[body].motion_keys.on &&
-           (kind == motion_slide || kind == motion_pivot);
+    const struct motion *motion = &reader->scene->bodies[body].motion;
+    return names_is_driven(reader, body) && motion->parent == ground_body &&
+           motion_joint(motion)->path != path_curve;
 }
 
 /* `angle`, `x`, `y` and their rates in the world; with `of_point` without `angle`. */

@@ -54,6 +54,7 @@ BEYOND = {
     "plane_on_a_particle.yaml": "how the body moves",
     "plane_with_open_weight.yaml": "two places of the file",
     "plane_points_names.yaml": "names",
+    "plane_under_a_load.yaml": "two places of the file",
     "plane_on_each_other.yaml": "two places of the file",
     "plane_with_four_points.yaml": "the unknowns of equilibrium",
     "plane_points_of_a_particle.yaml": "how the body moves",
