@@ -201,32 +201,44 @@ static bool make_step(struct run *run, struct turn *turn)
     }
 }
 
-/* Find the first event within the step and cut the step there; likewise at limits of couplings. */
-static bool find_events(struct run *run, struct turn *turn)
+/* Note whether an event was found; false where the search has failed. */
+static bool take_found(struct run *run, struct turn *turn, int found)
+{
+    if (found < 0) run_fail_step(run, stepper_bad_function);
+    turn->moving = found > 0;
+    return found >= 0;
+}
+
+/* Find the first event within the step that changes the motion, and cut the step there. */
+static bool find_event(struct run *run, struct turn *turn)
 {
     turn->moving = false;
     if (run->undisturbed) return true;
     run_watch_slots(run, &turn->t);
-    int found = run->end.outcome == FBD_GOING ? run_find_event(run, &turn->t) : 0;
-    if (found < 0) {
-        run_fail_step(run, stepper_bad_function);
-        return false;
-    }
-    turn->moving = found > 0;
-    run_watch_pulleys(run, &turn->t);
-    run_watch_ends(run, &turn->t);
-    turn->timed = turn->timed && time_dd_equal(turn->t, turn->limit);
-    return true;
+    return run->end.outcome != FBD_GOING || take_found(run, turn, run_find_event(run, &turn->t));
 }
 
 /* A step to the next event, repeated if shapes are in each other at its end: an event was missed. */
 static bool step_to_event(struct run *run, struct turn *turn)
 {
-    for (int time = 0; make_step(run, turn) && find_events(run, turn); time++) {
+    for (int time = 0; make_step(run, turn) && find_event(run, turn); time++) {
         if (time == most_times || !run_overlaps(run, turn->t.t)) return true;
         if (!shorten(run, turn)) return run->end.outcome == FBD_GOING;
     }
     return false;
+}
+
+/* Log the user events within the step, which is not repeated any more; cut it where one ends the run, and at limits of
+ * couplings. */
+static bool tell_events(struct run *run, struct turn *turn)
+{
+    if (run->undisturbed) return true;
+    const bool goes = run->end.outcome == FBD_GOING;
+    if (goes && !take_found(run, turn, run_tell_events(run, &turn->t, turn->moving))) return false;
+    run_watch_pulleys(run, &turn->t);
+    run_watch_ends(run, &turn->t);
+    turn->timed = turn->timed && time_dd_equal(turn->t, turn->limit);
+    return true;
 }
 
 /* Set the state to the end of the step, projected onto the couplings. */
@@ -305,7 +317,8 @@ fbd_outcome run_advance(struct run *run)
 {
     struct turn turn;
     if (run->end.outcome == FBD_GOING && begin_step(run) && limit_step(run, &turn) &&
-        step_to_event(run, &turn) && accept_step(run, &turn) && apply_events(run, &turn))
+        step_to_event(run, &turn) && tell_events(run, &turn) && accept_step(run, &turn) &&
+        apply_events(run, &turn))
         end_step(run, &turn);
     return run->end.outcome;
 }

@@ -310,9 +310,11 @@ void desync_steps_from(struct run *run, struct time_dd limit);
 /* Does the dense output of the step to `end` violate the equations of motion? (defect_control.c) */
 bool defect_is_large(struct run *run, struct time_dd end);
 
-/* Find the first event in the step to *t. Sets *t to its time, and y and f to the values there; a step that
- * has passed a pole is cut before it. 1 found, 0 none, -1 failed. (run_find.c) */
+/* Find the first event in the step to *t that changes the motion. Sets *t to its time, and y and f to the values there; a
+ * step that has passed a pole is cut before it. 1 found, 0 none, -1 failed. Then log the user events up to there, once the
+ * step is final: `change` if none of them cuts it. (run_find.c) */
 int run_find_event(struct run *run, struct time_dd *t);
+int run_tell_events(struct run *run, struct time_dd *t, int change);
 
 /* When steps fail: if the state is before switches by a rounding of the time, move it past them by as much,
  * and flag them as crossed moving functions. Roots and powers of max(x, 0) or abs(x) do not allow a step

@@ -276,11 +276,15 @@ static int find_told(struct run *run, struct time_dd *t)
 int run_find_event(struct run *run, struct time_dd *t)
 {
     if (stay_before_poles(run, t) < 0) return -1;
-    size_t size = plan_size(&run->model->plan), bytes = size * sizeof *run->work.y;
     trajectory_start(&run->trajectory);
     run_wake_contacts(run, t->t);
-    int change = find_change(run, t);
-    if (change < 0 || run->model->plan.watch_count == 0) return change;
+    return find_change(run, t);
+}
+
+int run_tell_events(struct run *run, struct time_dd *t, int change)
+{
+    if (run->model->plan.watch_count == 0) return change;
+    size_t size = plan_size(&run->model->plan), bytes = size * sizeof *run->work.y;
     memcpy(run->work.kept, run->work.y, bytes);
     memcpy(run->work.kept + size, run->work.f, bytes);
     memcpy(run->work.crossed, run->search.moving.crossed,
