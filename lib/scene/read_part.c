@@ -249,6 +249,7 @@ static struct vec center_of(const struct polygon *polygon)
 static bool place_polygon(struct reader *reader, const struct part_keys *keys, struct part *part)
 {
     struct polygon polygon;
+    if (!keys->corners) return false; /* noted: it is no list */
     if (keys->corners->count > most_body_corners) {
         diag_add(reader->errors, FBD_ERROR, "out-of-range", keys->corners->at, "divide it into `parts`",
                  "a polygon of a body has at most %d corners", (int)most_body_corners);

@@ -306,10 +306,10 @@ bool body_hand_read(struct reader *reader, int body);
 /* The exact solution given by the user (read_exact.c). */
 bool body_exact_read(struct reader *reader, int body);
 
-/* The convex polygon of the ground called `name`, or NULL. It has no corners if it was refused. */
 /* Read the corners of a convex polygon into *polygon, counter-clockwise; `key` is named in notes. False with one if they are none. */
 bool polygon_read(struct reader *reader, const struct node *list, const char *key, struct polygon *polygon);
 
+/* The convex polygon of the ground called `name`, or NULL. It has no corners if it was refused. */
 const struct polygon *ground_polygon_find(struct reader *reader, const struct node *name);
 
 /* ---- couplings and contacts (read_couplings.c) */
