@@ -118,6 +118,9 @@ check 'a spring about an axis' exits 0 draw "$models/rotation/torsional_pendulum
 check 'has its stiffness' says '>k = 0.9 N·m/rad<' out
 check 'a plate' exits 0 draw "$models/plane/plate_with_hole.yaml" --system
 check 'is behind its bearing and its angle' sh -c '[ "$(grep -n "plate-outline" out | cut -d: -f1)" -lt "$(grep -n "plate-fixtures" out | cut -d: -f1)" ]'
+check 'a plate by its corners' exits 0 draw "$models/rotation/triangular_plate.yaml" --system
+check 'has its side' says '>b</text>' out
+check 'and its height' says '>h</text>' out
 check 'an eccentric wheel' exits 0 draw "$models/couplings/eccentric_wheel.yaml" --system
 check 'has its centre of mass' says '>G</text>' out
 cat >stops.yaml <<'end'
