@@ -38,12 +38,12 @@ bool value_refuse(struct reader *reader, const struct node *node, const char *wh
     return false;
 }
 
-bool value_refuse_list(struct reader *reader, const struct node *node, const char *what, const char *wanted,
+bool value_refuse_list(struct reader *reader, const struct node *node, const char *key, const char *wanted,
                        const char *hint)
 {
-    if (node->kind != node_list) return value_refuse(reader, node, what, wanted, hint);
+    if (node->kind != node_list) return value_refuse(reader, node, key, wanted, hint);
     diag_add(reader->errors, FBD_ERROR, "wrong-type", node->at, hint, "`%s` must be %s, not a list of %zu",
-             what, wanted, node->count);
+             key, wanted, node->count);
     return false;
 }
 
