@@ -213,7 +213,7 @@ gallery: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	docs/make-gallery $(BUILD)/apps/fbd-run
 
-# FMUs beside what others have published: schemas, headers, FMPy (docs/fmi.md, Tests). What is absent is skipped.
+# FMUs beside what others have published: schemas, headers, FMPy (docs/fmi.md, Tests). Absent ones are skipped.
 fmu-importer: all
 	FBD_SOURCE_ROOT=$(CURDIR) FBD_BUILD_ROOT=$(CURDIR)/$(BUILD) FBD_RUN=$(CURDIR)/$(BUILD)/apps/fbd-run \
 		/usr/bin/python3 tests/fmi/published.py
@@ -243,7 +243,7 @@ pages: $(BUILD)/.tests
 	ninja -C $(BUILD)
 	FBD_ALL_PAGES=1 FBD_TEST_TIMEOUT=10 .ci/test $(BUILD) --no-rebuild page
 
-# What axe-core, from npm, finds in the pages; some minutes. After `make live` also in live pages and sheets to learn by.
+# The pages by axe-core, from npm, which finds nothing in them; some minutes. After `make live` also in live pages and sheets to learn by.
 axe: all
 	.ci/install-packages axe
 	npm install --silent --no-audit --no-fund --prefix $(BUILD)/axe axe-core@4.14.1

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Dimensions of the figure of the system: lengths of rods and sides of rectangles between extension lines,
+ * Dimensions of the figure of the system: lengths of rods and sides of rectangles and plates between extension lines,
  * radii as arrows from the centre, and masses. Each has a letter or a value (letters.h), the same one once.
  *
  * A dimension line is on that side of the body, and at that distance, where it crosses the fewest lines. Where
@@ -190,6 +190,33 @@ static void draw_sides(struct dimensioning *all, const struct part_of *part)
     draw_length(all, corner(part, 3), corner(part, 0), text_of(all, part, axis == 'z' ? "b" : "c", high));
 }
 
+/* A length of a plate, if it has the letter of a parameter that the corners name. */
+static void draw_lettered(struct dimensioning *all, const struct part_of *part, struct vec from,
+                          struct vec to)
+{
+    static const char *const keys[] = {"corners", "corners"};
+    const struct panel *panel = part->panel;
+    const char *text = letters_same(&all->figure->letters, part->keys, keys, vec_norm(vec_sub(to, from)),
+                                    panel->units.length);
+    if (text && !is_value(text))
+        draw_length(all, panel_point(panel, panel_place(panel, from)),
+                    panel_point(panel, panel_place(panel, to)), text);
+}
+
+/* The sides of a plate, its width and its height in the frame of the body. */
+static void draw_plate(struct dimensioning *all, const struct part_of *part)
+{
+    const fbd_shape *shape = &part->shape;
+    struct box box = box_nothing;
+    for (size_t i = 0; i < shape->corner_count; i++) {
+        box_take(&box, vec_of(shape->corners[i]));
+        draw_lettered(all, part, vec_of(shape->corners[i]),
+                      vec_of(shape->corners[(i + 1) % shape->corner_count]));
+    }
+    draw_lettered(all, part, box.low, (struct vec){box.high.x, box.low.y});
+    draw_lettered(all, part, (struct vec){box.high.x, box.low.y}, box.high);
+}
+
 static void draw_size(struct dimensioning *all, const struct part_of *part)
 {
     const fbd_shape *shape = &part->shape;
@@ -197,7 +224,8 @@ static void draw_size(struct dimensioning *all, const struct part_of *part)
     const struct vec center = panel_point(part->panel, panel_place(part->panel, vec_of(shape->center)));
     if (shape->kind == FBD_SHAPE_BAR)
         draw_length(all, corner(part, 0), corner(part, 1), length_text(all, part));
-    if (shape->kind == FBD_SHAPE_POLYGON) draw_sides(all, part);
+    if (shape->kind == FBD_SHAPE_POLYGON)
+        (node_find(part->keys, "corners") ? draw_plate : draw_sides)(all, part);
     if (shape->kind != FBD_SHAPE_CIRCLE) return;
     draw_radius(all, center, shape->radius * millimetres, text_of(all, part, "radius", shape->radius));
     draw_radius(all, center, shape->radius * millimetres, text_of(all, part, "outer_radius", shape->radius));
@@ -229,7 +257,7 @@ static void write_mass(struct dimensioning *all, const struct part_of *part)
 
 void figure_dimensions(struct figure *figure)
 {
-    enum { most_of_a_part = 6 };
+    enum { most_of_a_part = FBD_MOST_CORNERS + 3 };
     struct dimensioning all = {.figure = figure};
     size_t parts = 0;
     for (size_t b = 0; b < figure->count; b++) parts += fbd_model_shape_count(figure->model, b);

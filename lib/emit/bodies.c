@@ -431,7 +431,7 @@ static void write_body(struct body_writer *writer)
     if (lines.length > 0) {
         const char *name = emit_name(emitter, emit_join(emitter, "forces_on", writer->name));
         const char *head =
-            emit_printf(emitter, "/* What acts on `%s`, beside dry friction and joints. */\nstatic void %s",
+            emit_printf(emitter, "/* The forces on `%s`, beside dry friction and joints. */\nstatic void %s",
                         writer->name, name);
         emitter->forces_on[writer->b] = name;
         emit_function(&emitter->forces, head, "const struct scene *s, double t, const double *y, double *f",

@@ -48,7 +48,8 @@ static void write_hold(struct emitter *emitter)
                     emitter->pair[pair], v, emitter->pair[pair]);
     }
     if (plan->mode_count > 0) text_add(&lines, "    complete(s, t, y);\n");
-    emit_function(&emitter->rest, "/* What sticks goes with its surface, exactly. */\nstatic void hold",
+    emit_function(&emitter->rest,
+                  "/* Pairs that stick have the velocity of their surface, exactly. */\nstatic void hold",
                   "const struct scene *s, double t, double *y", &lines);
     close_text(emitter, &lines);
 }
@@ -108,10 +109,10 @@ static void write_switches(struct emitter *emitter)
                 "static const int switch_kind[branches] = {\n%s};\n"
                 "static const int branch_at_zero[branches] = {\n%s};\n\n",
                 most_levels, kinds.data ? kinds.data : "    0\n", zeros.data ? zeros.data : "    0\n");
-    emit_function(
-        out,
-        "/* What a switch watches; NAN in the side of an `if` that is not taken. */\nstatic double watched",
-        "const struct scene *s, double t, const double *y, int k", &lines);
+    emit_function(out,
+                  "/* The function that a switch watches; NAN in the side of an `if` that is not taken. "
+                  "*/\nstatic double watched",
+                  "const struct scene *s, double t, const double *y, int k", &lines);
     close_text(emitter, &lines);
     close_text(emitter, &kinds);
     close_text(emitter, &zeros);

@@ -24,7 +24,7 @@ static void write_head(struct emitter *emitter, struct text *out)
         emit_comment(out, scene->file);
         text_add(out, "`");
     }
-    text_add(out, ". Change the numbers of set_parameters as you like; what follows from them is\n"
+    text_add(out, ". Change the numbers of set_parameters as you like; constants that follow are\n"
                   " * computed in derive. Build it with\n *\n"
                   " *     cc -O2 -ffp-contract=off FILE.c -lgsl -lgslcblas -lm\n *\n"
                   " * (on processors without fused multiply-add that cc uses by itself -ffp-contract=off "
@@ -54,19 +54,20 @@ static void write_enum(struct emitter *emitter, struct text *out)
     for (size_t k = 0; k < model->absolute_count; k++)
         if (emitter->used[k]) text_printf(out, "    %s,\n", emitter->place[k]);
     text_add(out, "    size\n};\n");
-    text_add(out, "/* Further sums of forces: across slides, and what would hold joints. */\nenum {\n");
+    text_add(out,
+             "/* Further sums of forces: across slides, and reactions that would hold joints. */\nenum {\n");
     for (int i = n; i < plan->slots; i++)
         text_printf(out, "    %s%s,\n", emitter->slot[i], i > n ? "" : " = coordinates");
     text_add(out, plan->slots > n ? "    slots\n};\n" : "    slots = coordinates\n};\n");
-    text_add(out, "/* Modes: pairs that stick or slip, switches of expressions; what else is watched. "
-                  "*/\nenum {\n    ");
+    text_add(out, "/* Modes: pairs that stick or slip, switches of expressions; further functions that are "
+                  "watched. */\nenum {\n    ");
     for (size_t i = 0; i < plan->mode_count; i++) text_printf(out, "%s, ", emitter->pair[i]);
     text_add(out, "pairs\n};\nenum {\n    ");
     for (int i = 0; i < plan->branches; i++) text_printf(out, "%s, ", emitter->branch[i]);
     text_printf(out, "branches\n};\nenum {\n    surfaces = %zu, events = %zu,\n", plan->contact_count,
                 plan->watch_count);
     text_add(out, "    watches = 2*pairs + surfaces + branches + events,\n"
-                  "    looks = 3,     /* within a step, for what happens and is undone, */\n"
+                  "    looks = 3,     /* within a step, for changes that are undone, */\n"
                   "    look_depth = 6 /* and so often halved where that bends */\n};\n\n");
 }
 
@@ -74,7 +75,8 @@ static void write_structures(struct emitter *emitter, struct text *out)
 {
     text_add(out, "/* The numbers of the file. */\nstruct parameters {\n    double until, tolerance;\n");
     add(out, &emitter->parameters);
-    text_add(out, "};\n\n/* What follows from them. */\nstruct constants {\n    struct vec gravity;\n");
+    text_add(out,
+             "};\n\n/* Constants that follow from them. */\nstruct constants {\n    struct vec gravity;\n");
     add(out, &emitter->constants);
     text_add(out, "};\n\nstruct scene {\n    struct parameters p;\n    struct constants c;\n"
                   "    int slip[pairs + 1]; /* 0 sticks, 1 or -1: the side on which it slips */\n"

@@ -106,10 +106,11 @@ static void write_laws(struct emitter *emitter)
     for (int pair = 0; pair < (int)emitter->model->plan.mode_count; pair++)
         text_printf(&lines, "    case %s: return %s;\n", emitter->pair[pair], inertia_of(emitter, pair));
     text_add(&lines, "    default: return 0;\n    }\n");
-    emit_function(&emitter->formulas,
-                  "/* What a pair holds against its surface; 0 where the joint counts it already. */\n"
-                  "static double inertia_of",
-                  "const struct scene *s, int pair", &lines);
+    emit_function(
+        &emitter->formulas,
+        "/* The inertia that a pair holds against its surface; 0 where the joint counts it already. */\n"
+        "static double inertia_of",
+        "const struct scene *s, int pair", &lines);
     close_text(emitter, &lines);
 }
 

@@ -277,7 +277,7 @@ static void write_loads(struct tree_writer *writer)
     emitter->walks = lines.length > 0;
     if (lines.length > 0)
         emit_function(&emitter->links,
-                      "/* What acts on the links and varies; constant forces are in their bias. */\n"
+                      "/* The forces on the links that vary; constant forces are in their bias. */\n"
                       "static void load_links",
                       "const struct scene *s, double t, const double *y, struct links *l", &lines);
     emitter->arena.failed = emitter->arena.failed || lines.failed;
@@ -390,8 +390,8 @@ static void write_struct(struct emitter *emitter)
 static void write_sweeps(struct emitter *emitter)
 {
     write_pass(emitter,
-               "/* Outward: how each link would accelerate if no joint gave way, and what keeps it on that "
-               "course. */\n"
+               "/* Outward: how each link would accelerate if no joint gave way, and the forces that keep it "
+               "on that path. */\n"
                "static void bias_links",
                "const struct scene *s, const double *y, struct links *l", true, biased);
     write_pass(emitter, "/* The forces within the joints. */\nstatic void push_joints",
@@ -401,12 +401,13 @@ static void write_sweeps(struct emitter *emitter)
     write_pass(emitter,
                "/* Inward: the inertia of each link with all that hangs on it. */\nstatic void factor_links",
                "struct links *l", false, factored);
-    write_pass(emitter, "/* Inward: what keeps it on its course, likewise. */\nstatic void pass_links_inward",
+    write_pass(emitter,
+               "/* Inward: the forces that keep it on its path, likewise. */\nstatic void pass_links_inward",
                "struct links *l", false, inward);
     write_pass(emitter, "/* Outward: the accelerations of the joints. */\nstatic void give_links_outward",
                "struct links *l, double *a", true, outward);
     if (emitter->model->tree->joined_watched == 0) return;
-    write_pass(emitter, "/* What the joints pass to the links. */\nstatic void transmit_links",
+    write_pass(emitter, "/* The forces that the joints pass to the links. */\nstatic void transmit_links",
                "struct links *l", true, transmitted);
     if (emitter->model->tree->pair_count > 0)
         write_pass(emitter, "/* No forces, for another right-hand side. */\nstatic void clear_links",

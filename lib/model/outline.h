@@ -21,7 +21,7 @@ struct outline_part {
     struct vec center;
     double radius, inner;
     size_t count; /* corners: 2 of a bar; of a polygon; else 0 */
-    struct vec corner[most_body_corners];
+    struct vec corner[FBD_MOST_CORNERS];
 };
 
 /* The shape of the part in the plane. */

@@ -27,22 +27,18 @@ static const struct field name_fields[] = {
 static const struct group named = {"a load", NULL, FIELDS(name_fields), NULL, 0, "anything with a name"};
 
 /* The keys of a load that need not be there all the time. */
-static const struct field lifetime_fields[] = {
-    FIELD_NODE(offsetof(struct load_keys, since), "from", field_scalar, 0, NULL,
-               "the condition at which it begins, as `t > 2 s`; default from the start"),
-    FIELD_NODE(offsetof(struct load_keys, until), "until", field_scalar, 0, NULL,
-               "the condition at which it ends, as `tension > 500 N` or `t > 2 s`; default never"),
-};
+#define SINCE_ROW(key)                                                                                       \
+    FIELD_NODE(offsetof(struct load_keys, since), key, field_scalar, 0, NULL,                                \
+               "the condition at which it begins, as `t > 2 s`; default from the start")
+#define UNTIL_ROW                                                                                            \
+    FIELD_NODE(offsetof(struct load_keys, until), "until", field_scalar, 0, NULL,                            \
+               "the condition at which it ends, as `tension > 500 N` or `t > 2 s`; default never")
+static const struct field lifetime_fields[] = {SINCE_ROW("from"), UNTIL_ROW};
 static const struct group passing = {"a load", NULL, FIELDS(lifetime_fields),
                                      &named,   0,    "which may begin and end"};
 
 /* Those of a load along a line, whose `from` is a point. */
-static const struct field spread_fields[] = {
-    FIELD_NODE(offsetof(struct load_keys, since), "since", field_scalar, 0, NULL,
-               "the condition at which it begins, as `t > 2 s`; default from the start"),
-    FIELD_NODE(offsetof(struct load_keys, until), "until", field_scalar, 0, NULL,
-               "the condition at which it ends, as `t > 2 s`; default never"),
-};
+static const struct field spread_fields[] = {SINCE_ROW("since"), UNTIL_ROW};
 static const struct group passing_spread = {"a load", NULL, FIELDS(spread_fields),
                                             &named,   0,    "which may begin and end"};
 

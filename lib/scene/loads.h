@@ -9,6 +9,7 @@
 #include "base/vec.h"
 #include "expr/curve.h"
 #include "expr/expr.h"
+#include "fbd_geometry.h"
 #include "scene/tables.h"
 
 enum { most_coordinates_of_a_body = 3 };
@@ -49,8 +50,6 @@ enum shape_kind {
     shape_given,           /* moment of inertia stated in the file */
 };
 
-enum { most_body_corners = 16 };
-
 /* One part of a body. `axis` ('x', 'y', 'z') is the axis of the shape that faces the plane, i.e. is
  * perpendicular to the drawing. */
 struct part {
@@ -63,7 +62,7 @@ struct part {
     double radius;       /* sphere, disc, ring; outer radius of a hollow cylinder */
     double inner_radius; /* hollow cylinder */
     double side[3];      /* prism: a, b, c */
-    size_t corner_count; /* polygon: at most most_body_corners ... */
+    size_t corner_count; /* polygon: at most FBD_MOST_CORNERS ... */
     struct vec *corners; /* ... counter-clockwise, in the body frame */
     struct vec center;   /* its centre of mass in the body frame */
     double angle;        /* of the shape's x axis in the body frame [rad] */

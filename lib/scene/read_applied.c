@@ -8,12 +8,8 @@
 bool entry_pair_read(struct entry *entry, const struct node *node, const char *what, enum quantity quantity,
                      const char *hint, struct value *x, struct value *y)
 {
-    if (node->kind != node_list) return value_refuse(entry->reader, node, what, "a pair [x, y]", hint);
-    if (node->count != 2) {
-        diag_add(entry->reader->errors, FBD_ERROR, "wrong-type", node->at, hint,
-                 "`%s` must be a pair [x, y], not a list of %zu", what, node->count);
-        return false;
-    }
+    if (node->kind != node_list || node->count != 2)
+        return value_refuse_list(entry->reader, node, what, "a pair [x, y]", hint);
     bool first = value_formula(entry->reader, node->items[0], what, quantity, 0, &entry->scope, x);
     return value_formula(entry->reader, node->items[1], what, quantity, 0, &entry->scope, y) && first;
 }

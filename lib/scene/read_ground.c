@@ -162,7 +162,7 @@ static bool is_convex(const struct polygon *polygon)
 bool polygon_read(struct reader *reader, const struct node *list, const char *key, struct polygon *polygon)
 {
     if (list->kind != node_list || list->count < 3)
-        return value_refuse(reader, list, key, "three corners or more, [[x, y], ...]", NULL);
+        return value_refuse_list(reader, list, key, "three corners or more, [[x, y], ...]", NULL);
     struct polygon read = {list->count, ARENA_ARRAY(reader->arena, list->count, struct vec)};
     if (!read.corners) return false;
     for (size_t i = 0; i < list->count; i++)

@@ -249,9 +249,10 @@ static struct vec center_of(const struct polygon *polygon)
 static bool place_polygon(struct reader *reader, const struct part_keys *keys, struct part *part)
 {
     struct polygon polygon;
-    if (keys->corners->count > most_body_corners) {
+    if (!keys->corners) return false; /* noted: it is no list */
+    if (keys->corners->count > FBD_MOST_CORNERS) {
         diag_add(reader->errors, FBD_ERROR, "out-of-range", keys->corners->at, "divide it into `parts`",
-                 "a polygon of a body has at most %d corners", (int)most_body_corners);
+                 "a polygon of a body has at most %d corners", (int)FBD_MOST_CORNERS);
         return false;
     }
     if (!polygon_read(reader, keys->corners, "corners", &polygon)) return false;

@@ -38,6 +38,15 @@ bool value_refuse(struct reader *reader, const struct node *node, const char *wh
     return false;
 }
 
+bool value_refuse_list(struct reader *reader, const struct node *node, const char *key, const char *wanted,
+                       const char *hint)
+{
+    if (node->kind != node_list) return value_refuse(reader, node, key, wanted, hint);
+    diag_add(reader->errors, FBD_ERROR, "wrong-type", node->at, hint, "`%s` must be %s, not a list of %zu",
+             key, wanted, node->count);
+    return false;
+}
+
 /* ---- expressions */
 
 /* Columns in notes count along the joined text. Where the text was folded from several lines, move the notes
@@ -241,10 +250,7 @@ bool value_vector(struct reader *reader, const struct node *node, const char *wh
     if (node->kind != node_list || node->count != 2) {
         const char *hint =
             diag_hint(reader->errors, "write for example `%s: [0, %s]`", what, quantity_example(quantity));
-        if (node->kind != node_list) return value_refuse(reader, node, what, "a pair [x, y]", hint);
-        diag_add(reader->errors, FBD_ERROR, "wrong-type", node->at, hint,
-                 "`%s` must be a pair [x, y], not a list of %zu", what, node->count);
-        return false;
+        return value_refuse_list(reader, node, what, "a pair [x, y]", hint);
     }
     bool x = value_number(reader, node->items[0], what, quantity, 0, &vector->x);
     bool y = value_number(reader, node->items[1], what, quantity, 0, &vector->y);

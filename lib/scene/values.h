@@ -46,4 +46,8 @@ const char *value_found(struct reader *reader, const struct node *node);
 bool value_refuse(struct reader *reader, const struct node *node, const char *what, const char *wanted,
                   const char *hint);
 
+/* The same, where a list may be right but for the number of its entries. */
+bool value_refuse_list(struct reader *reader, const struct node *node, const char *key, const char *wanted,
+                       const char *hint);
+
 #endif

@@ -54,7 +54,7 @@ class Library:
         return {title.split(" ")[0]: list(map(float, column)) for title, column in zip(rows[0], zip(*rows[1:]))}
 
     def check_hand(self, text, name="model.yaml"):
-        """What is said of the derivation under `hand`."""
+        """The report of --check-hand on the derivation under `hand`."""
         return self._answer("hand", "check_hand", [text, name])["text"]
 
     def find(self, text, question, name="model.yaml"):

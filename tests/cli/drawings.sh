@@ -14,6 +14,10 @@ draw() { # draw MODEL ARGUMENT...: the diagram of the start in `out`
     run --quiet --equations --svg - "$@" "$model"
 }
 
+joined() { # joined NAME MODEL: the figure of the system of a model of the gallery in `out`
+    check "$1" exits 0 draw "$models/$2.yaml" --system
+}
+
 lacks() { # lacks PATTERN FILE
     ! grep -qE -- "$1" "$2"
 }
@@ -61,64 +65,67 @@ check '(the same bytes)' cmp -s out system.svg
 check 'its applied forces have letters' exits 0 draw "$incline" --system
 check '(push)' says '>push</text>' out
 check 'without gravity and reactions' lacks 'class="(gravity|reaction)"|>mg<|>N<' out
-check 'a body on another' exits 0 draw "$models/trees/stacked_blocks.yaml" --system
+joined 'a body on another' trees/stacked_blocks
 check 'stands on top of it' says 'class="body" points="9,-19.5 -9,-19.5 -9,-6.5 9,-6.5"' out
-check 'bodies on two ropes' exits 0 draw "$models/couplings/atwood.yaml" --system
+joined 'bodies on two ropes' couplings/atwood
 check 'do not overlap' says 'class="body" points="-1.056,' out
-check 'a track' exits 0 draw "$models/tracks/loop_the_loop.yaml" --system
+joined 'a track' tracks/loop_the_loop
 check 'is drawn whole' sh -c '[ "$(grep -o "class=\"ground\".* y2=\"-50\"" out | wc -l)" -ge 1 ]'
-check 'a rope that a winch winds up' exits 0 draw "$models/couplings/winch.yaml" --system
+joined 'a rope that a winch winds up' couplings/winch
 check 'has a drum' says 'circle class="body" [^>]*r="4"' out
 check 'and no wall' lacks 'class="hatch"' out
-check 'bodies on one ground' exits 0 draw "$models/contact/dominoes.yaml" --system
+joined 'bodies on one ground' contact/dominoes
 check 'have it hatched once' sh -c '[ "$(grep -c "class=\"hatch\"" out)" -eq 1 ]'
-check 'a slope under a ball' exits 0 draw "$models/couplings/rolling_on_incline.yaml" --system
+joined 'a slope under a ball' couplings/rolling_on_incline
 check 'has its angle' says '>30°<' out
-check 'a truss' exits 0 draw "$models/statics/truss.yaml" --system
+joined 'a truss' statics/truss
 check 'stands on a pin' says 'polygon class="support"' out
 check 'and a roller' says 'circle class="support"' out
 check 'an applied moment' exits 0 draw "$crank" --system
 check 'is an arc with its letter' sh -c 'grep -q "path class=\"shaft\"" out && grep -q ">drive<" out'
-check 'stairs' exits 0 draw "$models/contact/stairs.yaml" --system
+joined 'stairs' contact/stairs
 # three floors and the two walls between them: no side between two of the polygons, and not their underside
 check 'have the outline of their polygons together' sh -c '[ "$(grep -c "class=\"ground\"" out)" -eq 5 ]'
-check 'a table on a floor' exits 0 draw "$models/contact/ball_off_a_table.yaml" --system
+joined 'a table on a floor' contact/ball_off_a_table
 check 'has three sides, and the floor is one' sh -c '[ "$(grep -c "class=\"ground\"" out)" -eq 4 ]'
-check 'a cam' exits 0 draw "$models/couplings/cam_and_follower.yaml" --system
+joined 'a cam' couplings/cam_and_follower
 check 'has its outline, of 240 points' sh -c '[ "$(grep "class=\"body\"" out | sed "s/.*points=//" | wc -w | sort -n | tail -n 1)" -ge 240 ]'
 check 'and in the diagram of its forces' exits 0 draw "$models/couplings/cam_and_follower.yaml" --body cam
 check '(its outline)' sh -c '[ "$(grep "class=\"body\"" out | wc -w)" -ge 240 ]'
 check 'where the force of the follower acts' says 'face on cam: .*acts at \(0, 0\.05\) m' out
-check 'a rope round a bollard' exits 0 draw "$models/couplings/capstan.yaml" --system
+joined 'a rope round a bollard' couplings/capstan
 check 'lies on it' says 'path class="rope" d="M[^"]* A' out
 check 'and the bollard is hatched' says '<path class="hatch" d=" M' out
 check 'its force on a block is at the rope' exits 0 draw "$models/couplings/capstan.yaml" --body hand
 check '(in the middle)' says 'rope on hand: .*acts at \(-2, 0\.1\) m' out
-check 'a ratio' exits 0 draw "$models/couplings/differential.yaml" --system
+joined 'a ratio' couplings/differential
 check 'has its equation below' says '>gears: 2 cage.theta − left.theta − right.theta is constant<' out
-check 'a journal bearing' exits 0 draw "$models/rotation/journal_bearing.yaml" --system
+joined 'a journal bearing' rotation/journal_bearing
 check 'has a ring' says 'circle class="mass" [^>]*r="1.9"' out
 check 'with the letter of its coefficient' says '>μ</text>' out
-check 'a horizontal plane' exits 0 draw "$models/kinetics/puck.yaml" --system
+joined 'a horizontal plane' kinetics/puck
 check 'has gravity into the paper' says '>⊗ g</text>' out
 check 'and a patch of ground' says 'class="hatch"' out
 check 'and in the diagram of forces' exits 0 draw "$models/kinetics/puck.yaml" --symbols
 check 'the weight and the normal force' says '>⊗ mg, ⊙ N</text>' out
 check 'but not on a worksheet' exits 0 draw "$models/kinetics/puck.yaml" --worksheet
 check '(no weight)' lacks '⊗' out
-check 'letters with a number' exits 0 draw "$models/trees/stacked_blocks.yaml" --system
+joined 'letters with a number' trees/stacked_blocks
 check 'have it as their index' says ">m${index}1</tspan></text>" out
-check 'a rod given by its ends' exits 0 draw "$models/statics/cantilever.yaml" --system
+joined 'a rod given by its ends' statics/cantilever
 check 'has the letter of its length' says '>L = 2 m<' out
-check 'a belt' exits 0 draw "$models/hard/stick_slip_belt.yaml" --system
+joined 'a belt' hard/stick_slip_belt
 check 'has its speed' says ">v${index}b</tspan></text>" out
-check 'a conveyor' exits 0 draw "$models/contact/conveyor_belt.yaml" --system
+joined 'a conveyor' contact/conveyor_belt
 check 'has it under both bodies' sh -c '[ "$(grep -c ">s</text>" out)" -eq 2 ]'
-check 'a spring about an axis' exits 0 draw "$models/rotation/torsional_pendulum.yaml" --system
+joined 'a spring about an axis' rotation/torsional_pendulum
 check 'has its stiffness' says '>k = 0.9 N·m/rad<' out
-check 'a plate' exits 0 draw "$models/plane/plate_with_hole.yaml" --system
+joined 'a plate' plane/plate_with_hole
 check 'is behind its bearing and its angle' sh -c '[ "$(grep -n "plate-outline" out | cut -d: -f1)" -lt "$(grep -n "plate-fixtures" out | cut -d: -f1)" ]'
-check 'an eccentric wheel' exits 0 draw "$models/couplings/eccentric_wheel.yaml" --system
+joined 'a plate by its corners' rotation/triangular_plate
+check 'has its side' says '>b</text>' out
+check 'and its height' says '>h</text>' out
+joined 'an eccentric wheel' couplings/eccentric_wheel
 check 'has its centre of mass' says '>G</text>' out
 cat >stops.yaml <<'end'
 fbd: 1

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What axe-core finds in the pages that fbd-run writes: in each language, light and dark, at three widths; with the
+"""The pages that fbd-run writes, by axe-core, which finds nothing in them: in each language, light and dark, at three widths; with the
 module also in live pages and sheets to learn by. `make axe` runs it: it takes axe-core from npm, and is no part of `make test`."""
 import os
 import sys
