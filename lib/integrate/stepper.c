@@ -271,14 +271,18 @@ static void keep(struct stepper *s, struct counted_system *system, struct time_d
     s->counts.accepted++;
 }
 
-int stepper_shorten(struct stepper *s, struct time_dd t, double *y, double *f)
+int stepper_shorten(struct stepper *s, struct time_dd *t, double *y, double *f)
 {
-    const double far_off = 100;
-    double h = time_dd_since(t, s->t0), *inside = s->work;
-    bool within = s->stepped && h > 0 && time_dd_since(s->t1, t) > 0;
+    const double far_off = 100, share = 0.875;
+    const double room = time_dd_since(*t, s->t0);
+    const bool within = s->stepped && room > 0 && time_dd_since(s->t1, *t) > 0;
     if (!within || !s->redo || s->history || s->method->exact || s->h_fixed > 0) return 0;
-    int code = stepper_partial(s, t, y, f);
-    if (code == GSL_SUCCESS) code = stepper_dense(s, t, inside);
+    const struct time_dd end = time_dd_at(s->t0.t + share * room);
+    const double h = time_dd_since(end, s->t0);
+    double *inside = s->work;
+    if (!(h > 0 && h < room)) return 0;
+    int code = stepper_partial(s, end, y, f);
+    if (code == GSL_SUCCESS) code = stepper_dense(s, end, inside);
     if (code != GSL_SUCCESS) return code;
     for (size_t i = 0; i < s->n; i++) inside[i] -= y[i];
     if (error_norm_ratio(s->control, h, y, inside, f) <= far_off) return 0;
@@ -287,7 +291,8 @@ int stepper_shorten(struct stepper *s, struct time_dd t, double *y, double *f)
     if (code != GSL_SUCCESS || !all_finite(s->n, y, f)) return GSL_EFAILED;
     s->counts.accepted--;
     s->counts.rejected[rejected_error]++;
-    keep(s, s->system, s->t0, t, y, f);
+    keep(s, s->system, s->t0, end, y, f);
+    *t = end;
     return 1;
 }
 

@@ -103,10 +103,11 @@ int stepper_powers_of_ends(struct stepper *stepper, struct time_dd from, struct 
  * stepper_dense. Codes as there, or that of a right-hand side that fails at t. */
 int stepper_partial(struct stepper *stepper, struct time_dd t, double *y, double *f);
 
-/* Make the last step end at t. If its interpolant is far from a separate step to t, that step replaces it: a
- * narrow peak behind t may have affected the stages that serve the interpolant alone. Returns 1 if replaced,
- * with y and f at t; 0 if unchanged; or a code as above. */
-int stepper_shorten(struct stepper *stepper, struct time_dd t, double *y, double *f);
+/* Is the interpolant of the last step good up to an event at *t? Where it is far from a separate step to a point before *t,
+ * that step replaces the last one: a narrow peak behind *t may have affected the stages that serve the interpolant alone. The
+ * point is not *t itself, since the direction of a velocity that ends there is round-off. Returns 1 if replaced, with its end
+ * in *t and y and f there; 0 if unchanged; or a code as above. */
+int stepper_shorten(struct stepper *stepper, struct time_dd *t, double *y, double *f);
 
 /* State and slopes by as many steps as the tolerance requires (substeps.h). GSL_EFAILED if they do not reach
  * t, GSL_ENOMEM, GSL_EINVAL for a multistep method. The last step is unchanged. */

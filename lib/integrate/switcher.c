@@ -215,7 +215,7 @@ int switcher_partial(struct switcher *s, struct time_dd t, double *y, double *f)
     return stepper_partial(s->steppers[s->made], t, y, f);
 }
 
-int switcher_shorten(struct switcher *s, struct time_dd t, double *y, double *f)
+int switcher_shorten(struct switcher *s, struct time_dd *t, double *y, double *f)
 {
     return stepper_shorten(s->steppers[s->made], t, y, f);
 }

@@ -44,7 +44,7 @@ int switcher_powers_of_ends(struct switcher *switcher, struct time_dd from, stru
                             double *c);
 int switcher_degree(const struct switcher *switcher, double *negligible);
 int switcher_partial(struct switcher *switcher, struct time_dd t, double *y, double *f);
-int switcher_shorten(struct switcher *switcher, struct time_dd t, double *y, double *f);
+int switcher_shorten(struct switcher *switcher, struct time_dd *t, double *y, double *f);
 int switcher_walk(struct switcher *switcher, struct time_dd t, double *y, double *f);
 
 /* stepper_lend for the explicit method, while it makes the steps; the number of steps is limited by the next

@@ -174,13 +174,13 @@ static double soon(const struct run *run, double length)
     return fmax(intervals * last, least_share * length);
 }
 
-/* End the step at the event that cuts it if its dense output, from which rows and works are computed, is not
- * that of a step to there: 1; else 0, with y and f unchanged, or -1. */
-static int shorten_step(struct run *run, double t)
+/* End the step before the event that cuts it, at *t, if its dense output, from which rows and works are computed, is not that
+ * of a separate step: 1; else 0, with y and f unchanged, or -1. */
+static int shorten_step(struct run *run, struct time_dd *t)
 {
     const size_t bytes = plan_size(&run->model->plan) * sizeof *run->work.y;
     double *y = run->work.kept, *f = y + plan_size(&run->model->plan);
-    int code = switcher_shorten(run->stepper, time_dd_at(t), y, f);
+    int code = switcher_shorten(run->stepper, t, y, f);
     if (code != 1) return code == 0 ? 0 : -1;
     memcpy(run->work.y, y, bytes);
     memcpy(run->work.f, f, bytes);
@@ -221,10 +221,11 @@ static int find_change(struct run *run, struct time_dd *t)
         if (when >= end) return 1;
         if (!polish(run, end, &when, &move) || !look_before(run, start, &when, &move)) return -1;
         if (goes_down(run, when, end) || is_down_at_end(run, when, end)) {
-            int shorter = shorten_step(run, when);
+            struct time_dd before = time_dd_at(when);
+            const int shorter = shorten_step(run, &before);
             if (shorter < 0) return -1;
             if (shorter > 0) {
-                *t = time_dd_at(when);
+                *t = before;
                 return find_change(run, t);
             }
             *t = run_pin_moving(run, when, move, *t);
