@@ -60,11 +60,10 @@ static struct slip_of_point slip_now(const struct coupling *coupling, const stru
 void plane_follow(const struct view *view, const struct coupling *coupling, struct coupling_state *state)
 {
     const double rounding = solved_rounding; /* it sticks */
-    const double turned = 0.5;               /* by 60 degrees */
     const struct slip_of_point now = slip_now(coupling, view->work->links);
     const double speed = vec_norm(now.u);
-    if (speed <= fmax(rounding * now.size, soft_speeds * state->nu)) return;
-    if (vec_dot(state->e, now.u) < turned * speed) state->e = vec_scale(1 / speed, now.u);
+    state->size = now.size;
+    if (speed > fmax(rounding * now.size, soft_speeds * state->nu)) state->e = vec_scale(1 / speed, now.u);
 }
 
 static bool plane_slips(const struct tree *tree, const struct instant *at, int index)
@@ -111,6 +110,13 @@ static double limit_of(const struct fbd_model *model, const struct instant *at, 
     return friction_coefficient(model, pair, &model->plan.modes[pair].mu_k, at, along, variation);
 }
 
+/* The velocity without the part across e that is within its rounding, of a size that it has had. */
+static struct vec resolved(struct vec w, struct vec e, double size)
+{
+    const double least = evaluation_rounding * size, across = vec_cross(e, w);
+    return vec_sub(w, vec_scale(fmin(fmax(across, -least), least), vec_perp(e)));
+}
+
 /* The direction of friction, -s w / |w|. */
 static struct vec against(struct vec w, struct vec e)
 {
@@ -137,7 +143,8 @@ void planes_load(const struct fbd_model *model, const struct instant *at)
         const double limit = limit_of(model, at, i, NULL, NULL);
         const struct vec e = work->couplings[i].e;
         const double nu = limit * coupling->soft;
-        const struct vec n = against(vec_add(now.u, vec_scale(nu, e)), e), f = vec_scale(limit, n);
+        const struct vec w = resolved(vec_add(now.u, vec_scale(nu, e)), e, work->couplings[i].size);
+        const struct vec n = against(w, e), f = vec_scale(limit, n);
         work->couplings[i].n = n;
         work->couplings[i].nu = nu;
         push(&work->x[coupling->end[0].link], now.arm[0], f);

@@ -7,12 +7,13 @@
  *     stick   u = 0, f a reaction with |f| <= c_s
  *
  * The rows of the coupling are e . u and (k x e) . u, constraints of velocities while the point sticks. While it
- * slips e is a direction near that of u, renewed where u has turned away from it, and the force is
+ * slips e is the direction of u at the start of a step, and the force is
  *
  *     f = -c_k s w / |w|,   w = u + nu e,   s = sign(e . w)
  *
- * with a negligible speed nu. Without it the direction of u at a start from rest would be that of round-off, and the
- * stages of an explicit step, however short, would amplify it by c over the acceleration. So along a straight path the
+ * with a negligible speed nu, and the part of w across e zero where it is round-off. Without both the direction of u at a
+ * start from rest, or shortly before a stop, would be that of round-off, and the stages of an explicit step, however short,
+ * would amplify it by c over the acceleration, or by the speed at the start over that at the end. So along a straight path the
  * right-hand side continues smoothly through u = 0, and e . u crosses zero there. With other forces u approaches zero
  * along a curve, whose direction near its end is that of these forces: e . u is zero where u has turned by a right angle
  * as well, and then e is renewed only. In the microseconds of a start an explicit method may still turn u: where that
