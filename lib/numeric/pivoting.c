@@ -280,7 +280,7 @@ static enum pivoting follow_path(struct pivoting_block *block, struct pivoting_r
         if (block->basic && pivoting_fit(block)) return pivoting_unexamined;
         pivoting_guess(block);
         (void)let_all_carry(block);
-        if (pivoting_fit_all(block, kept)) return pivoting_unexamined;
+        if (fit_nearby(block, kept)) return pivoting_unexamined;
     }
     return pivoting_ray;
 }
