@@ -5,11 +5,9 @@
 
 static double value_of(const struct extreme *extreme, const struct fbd_state *state)
 {
-    double values[world_parts];
-    if (extreme->index >= 0) return state->y[extreme->index];
-    const struct vec point = world_point(state->model, extreme->point.body, extreme->point.point);
-    world_values(state, extreme->point.body, point, values);
-    return values[extreme->point.part];
+    struct column_view view;
+    column_view_begin(&view, state, NULL, NULL, NULL);
+    return run_column_value(&extreme->column, &view);
 }
 
 void extremes_start(struct extreme *extremes, size_t count, const struct fbd_state *state)
@@ -28,7 +26,9 @@ struct look {
 static double value_at(struct look *look, double t)
 {
     if (!ensemble_look(look->run, t, look->probe)) look->failed = true;
-    return look->extreme->sign * value_of(look->extreme, look->probe);
+    const double value = value_of(look->extreme, look->probe);
+    if (isnan(value)) look->failed = true;
+    return look->extreme->sign * value;
 }
 
 /* The maximum in [a, b], assumed to be the only one there. */

@@ -122,24 +122,28 @@ static void lose(struct text *text)
     text->failed = true;
 }
 
-/* Append the first error with its position; no error means that memory is out. */
+enum { reason_room = 600 };
+
+/* The first error with its position; "" without one. */
+static void write_reason(fbd_errors *errors, char *reason, size_t size)
+{
+    const fbd_error *note = errors->out_of_memory ? NULL : diag_first_error(errors);
+    const char *file = note && note->file ? note->file : "model";
+    reason[0] = '\0';
+    if (note && note->line > 0)
+        snprintf(reason, size, "%s:%d:%d: %s [%s]", file, note->line, note->column, note->message, note->id);
+    else if (note)
+        snprintf(reason, size, "%s: %s [%s]", file, note->message, note->id);
+}
+
+/* Append an error in place of the columns; no error means that memory is out. */
 static void put_wrong(const struct row_maker *maker, fbd_errors *errors, struct text *text)
 {
     const struct columns *columns = &maker->table->columns;
-    char reason[600] = "";
+    char reason[reason_room];
     for (size_t i = 0; i < columns->count + 1; i++) text_add(text, ","); /* plus the number of events */
-    const fbd_error *note;
-    for (size_t i = 0; (note = errors->out_of_memory ? NULL : diag_get(errors, i)) != NULL; i++) {
-        if (note->severity != FBD_ERROR) continue;
-        const char *file = note->file ? note->file : "model";
-        if (note->line > 0)
-            snprintf(reason, sizeof reason, "%s:%d:%d: %s [%s]", file, note->line, note->column,
-                     note->message, note->id);
-        else
-            snprintf(reason, sizeof reason, "%s: %s [%s]", file, note->message, note->id);
-        break;
-    }
-    if (!note) lose(text);
+    write_reason(errors, reason, sizeof reason);
+    if (!reason[0]) lose(text);
     rows_put_end(text, "wrong", reason);
 }
 
@@ -229,10 +233,12 @@ static bool carry(struct row_maker *maker, struct ensemble *run, struct ledger *
             !word_log_step(&maker->words, run, probe))
             run->outcome = FBD_OUT_OF_MEMORY;
         if (!(run->t > run->from)) continue; /* no step was made */
-        if (maker->table->columns.at_count &&
-            !columns_step(&maker->table->columns, run, seen, probe, maker->at))
+        if ((maker->table->columns.at_count &&
+             !columns_step(&maker->table->columns, run, seen, probe, maker->at)) ||
+            (extremes && !extremes_step(maker->extremes, extremes, run, probe))) {
             run->outcome = FBD_FAILED;
-        if (extremes && !extremes_step(maker->extremes, extremes, run, probe)) run->outcome = FBD_FAILED;
+            if (!run->reason[0]) run->reason = "an output has no value during the motion";
+        }
     }
     if (words && run->refused && !word_log_step(&maker->words, run, probe)) run->outcome = FBD_OUT_OF_MEMORY;
     if (ledger && !ledger_at(ledger, run, ledger->work)) run->outcome = FBD_FAILED;
@@ -259,7 +265,7 @@ static bool is_balanced(struct ensemble *run, struct ledger *ledger, char *reaso
 /* Append the outcome; for a refused start its id and, mostly, a position in the file. */
 static void put_outcome(const struct ensemble *run, struct text *text)
 {
-    char reason[600];
+    char reason[reason_room];
     const char *file = run->model->scene->file ? run->model->scene->file : "model";
     if (run->refused && run->refused->end.refusal_at.line > 0)
         snprintf(reason, sizeof reason, "%s:%d:%d: %s [%s]", file, run->refused->end.refusal_at.line,
@@ -271,7 +277,7 @@ static void put_outcome(const struct ensemble *run, struct text *text)
 
 /* Append the columns of a finished run. */
 static enum row_end put_run(struct row_maker *maker, struct ensemble *run, struct ledger *ledger,
-                            struct text *text)
+                            struct text *text, fbd_errors *errors)
 {
     const struct columns *columns = &maker->table->columns;
     bool ended = run->outcome == FBD_DONE || run->outcome == FBD_STOPPED;
@@ -282,14 +288,16 @@ static enum row_end put_run(struct row_maker *maker, struct ensemble *run, struc
         return row_failed;
     }
     const struct observed observed = {run, ledger, maker->extremes, maker->at, &maker->words};
-    columns_put(columns, &observed, text);
+    columns_put(columns, &observed, text, errors);
     if (maker->story) story_put(&observed, maker->story);
     text_add(text, ",");
     text_exact(text, (double)run->event_count);
-    char reason[100];
+    char reason[reason_room];
+    write_reason(errors, reason, sizeof reason);
     ended = run->outcome == FBD_DONE || run->outcome == FBD_STOPPED;
-    if (ended && !is_balanced(run, ledger, reason, sizeof reason)) {
-        rows_put_end(text, "inaccurate", reason);
+    const bool valued = !reason[0];
+    if (ended && (!valued || !is_balanced(run, ledger, reason, sizeof reason))) {
+        rows_put_end(text, valued ? "inaccurate" : "failed", reason);
         return row_failed;
     }
     put_outcome(run, text);
@@ -326,7 +334,7 @@ static enum row_end simulate(struct row_maker *maker, struct ensemble *run, stru
     if (!ready)
         put_wrong(maker, errors, text);
     else
-        end = carry(maker, run, kept, probe) ? put_run(maker, run, kept, text) : row_stopped;
+        end = carry(maker, run, kept, probe) ? put_run(maker, run, kept, text, errors) : row_stopped;
     if (columns->ledger) ledger_free(&ledger);
     state_free(probe);
     return end;
@@ -418,7 +426,7 @@ void row_close(struct open_row *row)
 
 enum row_end row_put(struct row_maker *maker, const struct open_row *row, struct text *text)
 {
-    return put_run(maker, row->run, NULL, text);
+    return put_run(maker, row->run, NULL, text, row->errors);
 }
 
 /* ---- as numbers */
