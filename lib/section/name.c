@@ -87,15 +87,23 @@ static double length_of(const fbd_section *section, const char *text, fbd_errors
     return x;
 }
 
-static double refuse_place(const fbd_section *section, double x, fbd_errors *errors)
+static double refuse_place(const fbd_section *section, double x, struct pos at, fbd_errors *errors)
 {
     char unit[64];
     unit_name(DIM_LENGTH, section->model->scene->units, unit, sizeof unit);
-    diag_add(errors, FBD_ERROR, "bad-place", (struct pos){0, 0},
-             "the place is the distance from the end `from` (`left`)",
+    diag_add(errors, FBD_ERROR, "bad-place", at, "the place is the distance from the end `from` (`left`)",
              "`%s` has no section at x = %g: its length is %g %s", section->body->name, x, section->length,
              unit);
     return NAN;
+}
+
+/* The place on the body, at an end or a load where it differs by rounding. */
+static double within(const fbd_section *section, double x, struct pos at, fbd_errors *errors)
+{
+    const double near = 1e-11 * section->length;
+    if (isnan(x)) return NAN;
+    if (x < -near || x > section->length + near) return refuse_place(section, x, at, errors);
+    return section_snap(section, fmin(fmax(x, 0), section->length));
 }
 
 double section_place(const fbd_section *section, const char *text, fbd_errors *errors)
@@ -109,10 +117,7 @@ double section_place(const fbd_section *section, const char *text, fbd_errors *e
     }
     double x = point ? vec_dot(section->e, vec_sub(point->where, section->origin))
                      : length_of(section, text, errors);
-    const double near = 1e-11 * section->length;
-    if (isnan(x)) return NAN;
-    if (x < -near || x > section->length + near) return refuse_place(section, x, errors);
-    return section_snap(section, fmin(fmax(x, 0), section->length));
+    return within(section, x, (struct pos){0, 0}, errors);
 }
 
 /* ---- names */
@@ -143,16 +148,31 @@ static bool refuse_name(const char *text, fbd_errors *errors)
     return false;
 }
 
-/* Is the body straight, and the place in it? */
-static bool exists(const struct fbd_model *model, const struct section_name *name, fbd_errors *errors)
+/* The axis alone, without loads; false with a note in the file of the model. */
+static bool find_axis(const struct fbd_model *model, int body, fbd_section *section, fbd_errors *errors)
 {
-    fbd_section section = {.model = model, .body = &model->bodies[name->body]};
-    struct section_work work = {.section = &section, .errors = errors, .body = section.body};
     const char *file = errors->file;
+    *section = (fbd_section){.model = model, .body = &model->bodies[body]};
+    struct section_work work = {.section = section, .errors = errors, .body = section->body};
     diag_in_file(errors, model->scene->file);
     const bool straight = section_find_axis(&work);
     errors->file = file;
-    const bool fine = straight && !isnan(section_place(&section, name->place, errors));
+    return straight;
+}
+
+bool section_exists(const struct fbd_model *model, int body, double x, struct pos at, fbd_errors *errors)
+{
+    fbd_section section;
+    const bool exists = find_axis(model, body, &section, errors) && !isnan(within(&section, x, at, errors));
+    arena_free(&section.arena);
+    return exists;
+}
+
+static bool names_place(const struct fbd_model *model, const struct section_name *name, fbd_errors *errors)
+{
+    fbd_section section;
+    const bool fine = find_axis(model, name->body, &section, errors) &&
+                      !isnan(section_place(&section, name->place, errors));
     arena_free(&section.arena);
     return fine;
 }
@@ -175,7 +195,7 @@ bool section_name_read(const struct fbd_model *model, struct arena *arena, const
     name->body = count == 2 ? section_body(model, parts[0], errors) : 0;
     name->title = arena_printf(arena, "%c(%s%s%s%s)", text[0], count == 2 ? parts[0] : "",
                                count == 2 ? " " : "", name->place, name->behind ? " behind" : "");
-    return name->title && name->body >= 0 && exists(model, name, errors);
+    return name->title && name->body >= 0 && names_place(model, name, errors);
 }
 
 double section_name_value(const struct section_name *name, const struct fbd_state *state, bool at_rest,

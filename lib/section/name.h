@@ -38,6 +38,9 @@ double section_name_value(const struct section_name *name, const struct fbd_stat
 /* The number of a body; -1 with a note. */
 int section_body(const struct fbd_model *model, const char *name, fbd_errors *errors);
 
+/* Is the body straight, with a section at x? False with a note, on the place at `at`. */
+bool section_exists(const struct fbd_model *model, int body, double x, struct pos at, fbd_errors *errors);
+
 /* The distance of a place from the first end, of numbers and parameters, or a named point; NAN with a note. */
 double section_place(const fbd_section *section, const char *text, fbd_errors *errors);
 
