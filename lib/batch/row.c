@@ -122,10 +122,7 @@ static void lose(struct text *text)
     text->failed = true;
 }
 
-enum { reason_room = 600 };
-
-/* The first error with its position; "" without one. */
-static void write_reason(fbd_errors *errors, char *reason, size_t size)
+void row_write_reason(fbd_errors *errors, char *reason, size_t size)
 {
     const fbd_error *note = errors->out_of_memory ? NULL : diag_first_error(errors);
     const char *file = note && note->file ? note->file : "model";
@@ -140,9 +137,9 @@ static void write_reason(fbd_errors *errors, char *reason, size_t size)
 static void put_wrong(const struct row_maker *maker, fbd_errors *errors, struct text *text)
 {
     const struct columns *columns = &maker->table->columns;
-    char reason[reason_room];
+    char reason[row_reason_room];
     for (size_t i = 0; i < columns->count + 1; i++) text_add(text, ","); /* plus the number of events */
-    write_reason(errors, reason, sizeof reason);
+    row_write_reason(errors, reason, sizeof reason);
     if (!reason[0]) lose(text);
     rows_put_end(text, "wrong", reason);
 }
@@ -265,7 +262,7 @@ static bool is_balanced(struct ensemble *run, struct ledger *ledger, char *reaso
 /* Append the outcome; for a refused start its id and, mostly, a position in the file. */
 static void put_outcome(const struct ensemble *run, struct text *text)
 {
-    char reason[reason_room];
+    char reason[row_reason_room];
     const char *file = run->model->scene->file ? run->model->scene->file : "model";
     if (run->refused && run->refused->end.refusal_at.line > 0)
         snprintf(reason, sizeof reason, "%s:%d:%d: %s [%s]", file, run->refused->end.refusal_at.line,
@@ -292,8 +289,8 @@ static enum row_end put_run(struct row_maker *maker, struct ensemble *run, struc
     if (maker->story) story_put(&observed, maker->story);
     text_add(text, ",");
     text_exact(text, (double)run->event_count);
-    char reason[reason_room];
-    write_reason(errors, reason, sizeof reason);
+    char reason[row_reason_room];
+    row_write_reason(errors, reason, sizeof reason);
     ended = run->outcome == FBD_DONE || run->outcome == FBD_STOPPED;
     const bool valued = !reason[0];
     if (ended && (!valued || !is_balanced(run, ledger, reason, sizeof reason))) {
@@ -393,7 +390,7 @@ static struct scene *patched(struct row_maker *maker)
     return maker->patch ? patch_apply(maker->patch, maker->overrides) : NULL;
 }
 
-static struct fbd_model *make_model(struct row_maker *maker, fbd_errors *errors)
+struct fbd_model *row_model(struct row_maker *maker, fbd_errors *errors)
 {
     const struct rows *table = maker->table;
     size_t count = table->source.count + table->fixed_count;
@@ -410,7 +407,7 @@ bool row_open(struct row_maker *maker, uint64_t run, struct open_row *row, struc
     if (!row->errors || !row_maker_set(maker, run)) lose(text);
     if (text->failed) return false;
     put_start(maker, run, text);
-    row->model = make_model(maker, row->errors);
+    row->model = row_model(maker, row->errors);
     row->run = row->model ? start_run(maker, row->model, row->errors) : NULL;
     if (!row->run) put_wrong(maker, row->errors, text);
     return row->run != NULL;

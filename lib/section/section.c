@@ -223,7 +223,7 @@ void fbd_section_free(fbd_section *section)
 
 double section_snap(const fbd_section *section, double x)
 {
-    const double near = 4e-11 * section->length;
+    const double near = 1e-12 * section->length;
     for (size_t i = 0; i < section->piece_count; i++) {
         const struct section_piece *piece = &section->pieces[i];
         if (fabs(x - piece->from) <= near) return piece->from;
