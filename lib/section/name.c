@@ -80,7 +80,7 @@ static double length_of(const fbd_section *section, const char *text, fbd_errors
                                 .names = list_names,
                                 .context = &names,
                                 .units = section->model->scene->units};
-    const struct expr_want want = {.dim = DIM_LENGTH, .constant = true, .what = "place"};
+    const struct expr_want want = {DIM_LENGTH, false, true, false, false, false, "place"};
     const struct expr *expr = expr_compile(&names.arena, text, (struct pos){0, 0}, &scope, &want, errors);
     const double x = expr ? expr_value(expr) : NAN;
     arena_free(&names.arena);
