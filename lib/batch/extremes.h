@@ -19,11 +19,13 @@ struct extreme {
     double value;
 };
 
-/* Initialize at a state. */
-void extremes_start(struct extreme *extremes, size_t count, const struct fbd_state *state);
+/* Initialize at a state; `errors` receives why a section force has no value. */
+void extremes_start(struct extreme *extremes, size_t count, const struct fbd_state *state,
+                    fbd_errors *errors);
 
 /* Update with the last step of a run. `probe` is a scratch state of the same model. Returns false when the
  * dense output is not available, or the quantity has no value. */
-bool extremes_step(struct extreme *extremes, size_t count, struct ensemble *run, struct fbd_state *probe);
+bool extremes_step(struct extreme *extremes, size_t count, struct ensemble *run, struct fbd_state *probe,
+                   fbd_errors *errors);
 
 #endif

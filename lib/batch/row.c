@@ -217,7 +217,7 @@ static bool wants_words(const struct row_maker *maker)
 /* Carry the run to its end, with ledger and extremes if required. Returns false when it was stopped or memory
  * is out. */
 static bool carry(struct row_maker *maker, struct ensemble *run, struct ledger *ledger,
-                  struct fbd_state *probe)
+                  struct fbd_state *probe, fbd_errors *errors)
 {
     size_t extremes = maker->table->columns.extreme_count;
     const bool words = wants_words(maker);
@@ -231,11 +231,9 @@ static bool carry(struct row_maker *maker, struct ensemble *run, struct ledger *
             run->outcome = FBD_OUT_OF_MEMORY;
         if (!(run->t > run->from)) continue; /* no step was made */
         if ((maker->table->columns.at_count &&
-             !columns_step(&maker->table->columns, run, seen, probe, maker->at)) ||
-            (extremes && !extremes_step(maker->extremes, extremes, run, probe))) {
+             !columns_step(&maker->table->columns, run, seen, probe, maker->at, errors)) ||
+            (extremes && !extremes_step(maker->extremes, extremes, run, probe, errors)))
             run->outcome = FBD_FAILED;
-            if (!run->reason[0]) run->reason = "an output has no value during the motion";
-        }
     }
     if (words && run->refused && !word_log_step(&maker->words, run, probe)) run->outcome = FBD_OUT_OF_MEMORY;
     if (ledger && !ledger_at(ledger, run, ledger->work)) run->outcome = FBD_FAILED;
@@ -292,8 +290,9 @@ static enum row_end put_run(struct row_maker *maker, struct ensemble *run, struc
     char reason[row_reason_room];
     row_write_reason(errors, reason, sizeof reason);
     ended = run->outcome == FBD_DONE || run->outcome == FBD_STOPPED;
-    const bool valued = !reason[0];
-    if (ended && (!valued || !is_balanced(run, ledger, reason, sizeof reason))) {
+    const bool valued = !reason[0] || run->reason[0];
+    if (errors->out_of_memory) lose(text);
+    if (!valued || (ended && !is_balanced(run, ledger, reason, sizeof reason))) {
         rows_put_end(text, valued ? "inaccurate" : "failed", reason);
         return row_failed;
     }
@@ -324,14 +323,14 @@ static enum row_end simulate(struct row_maker *maker, struct ensemble *run, stru
     if (ready && (columns->extreme_count || columns->at_count || wants_words(maker))) {
         probe = state_new(model);
         ready = probe != NULL;
-        extremes_start(maker->extremes, columns->extreme_count, ensemble_state(run));
+        extremes_start(maker->extremes, columns->extreme_count, ensemble_state(run), errors);
     }
     struct ledger *kept = columns->ledger ? &ledger : NULL;
     enum row_end end = row_failed;
     if (!ready)
         put_wrong(maker, errors, text);
     else
-        end = carry(maker, run, kept, probe) ? put_run(maker, run, kept, text, errors) : row_stopped;
+        end = carry(maker, run, kept, probe, errors) ? put_run(maker, run, kept, text, errors) : row_stopped;
     if (columns->ledger) ledger_free(&ledger);
     state_free(probe);
     return end;

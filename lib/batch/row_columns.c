@@ -373,7 +373,7 @@ static void put(const struct column *column, const struct observed *o, struct co
 }
 
 bool columns_step(const struct columns *columns, struct ensemble *run, size_t seen, struct fbd_state *probe,
-                  double *at)
+                  double *at, fbd_errors *errors)
 {
     struct column_view view;
     for (size_t e = seen; e < run->event_count; e++) {
@@ -383,6 +383,7 @@ bool columns_step(const struct columns *columns, struct ensemble *run, size_t se
             if (!is_meant(column, &run->events[e])) continue;
             if (!ensemble_look_before(run, run->events[e].t, probe)) return false;
             column_view_begin(&view, probe, NULL, NULL, NULL);
+            view.errors = errors;
             at[column->index] = run_column_value(&column->quantity, &view);
             if (isnan(at[column->index])) return false;
         }

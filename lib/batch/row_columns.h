@@ -74,7 +74,7 @@ struct observed {
 /* Take the values of row_at at the events of the last step, from event `seen` on. `probe` is a scratch state.
  * False when the dense output is not available, or the quantity has no value. */
 bool columns_step(const struct columns *columns, struct ensemble *run, size_t seen, struct fbd_state *probe,
-                  double *at);
+                  double *at, fbd_errors *errors);
 
 /* Append `,value` for each column; the value is empty if it does not exist, with a note for a section. */
 void columns_put(const struct columns *columns, const struct observed *observed, struct text *text,
