@@ -170,7 +170,7 @@ void planes_check(struct builder *builder)
             mode->coupling >= 0 ? model->tree->couplings[mode->coupling].source : NULL;
         if (others == 0 || !holds_by_more(mode)) continue;
         const bool loose = has_loose_plane(model), joined = is_joined(model),
-                   shared = mode->kind == mode_plane && points_under(scene, source->body[0]) > 1;
+                   shared = source && mode->kind == mode_plane && points_under(scene, source->body[0]) > 1;
         if (!loose && !joined && !shared) continue;
         const struct load *load = source ? NULL : model->loads[mode->load].source;
         refuse(builder, source ? source->name : load->name, source ? source->at : load->at,

@@ -179,8 +179,8 @@ struct symbol section_symbol(const struct names *names, const char *name, double
                                      .kind = absolute_section,
                                      .part = (int)(one - symbols),
                                      .at = at};
-    return isnan(x) ? (struct symbol){.kind = symbol_variable}
-                    : slot_of(names, &section, *one == 'M' ? DIM_MOMENT : DIM_FORCE);
+    if (isnan(x)) return (struct symbol){.kind = symbol_variable};
+    return slot_of(names, &section, *one == 'M' ? DIM_MOMENT : DIM_FORCE);
 }
 
 /* ---- symbols declared in the file */

@@ -180,7 +180,7 @@ static bool names_place(const struct fbd_model *model, const struct section_name
 bool section_name_read(const struct fbd_model *model, struct arena *arena, const char *text,
                        struct section_name *name, fbd_errors *errors)
 {
-    const char *rest = text + 2, *end = text + strlen(text) - 1, *parts[4];
+    const char *rest = text + 2, *end = text + strlen(text) - 1, *parts[4] = {""};
     size_t count = 0;
     while (rest < end && count < 4)
         if (!(parts[count++] = next_part(arena, &rest, end))) return false;
@@ -189,7 +189,7 @@ bool section_name_read(const struct fbd_model *model, struct arena *arena, const
                                                             : section_M};
     name->behind = count > 1 && strcmp(parts[count - 1], "behind") == 0;
     count -= name->behind;
-    const bool whole = count == 1 && (model->body_count > 1 || strcmp(parts[0], model->bodies[0].name) == 0);
+    const bool whole = count == 1 && (model->body_count != 1 || strcmp(parts[0], model->bodies[0].name) == 0);
     if (count == 0 || count > 2 || whole || !parts[count - 1][0]) return refuse_name(text, errors);
     name->place = parts[count - 1];
     name->body = count == 2 ? section_body(model, parts[0], errors) : 0;
