@@ -34,6 +34,8 @@ static const char help[] =
     "                         t, block.x, block.v       at the end of the run\n"
     "                         rod.right.x, rod.G.ay     of a point in the world: .x .y .vx .vy .ax .ay, of "
     "an accelerometer .proper_ax .proper_ay\n"
+    "                         M(beam, 0.4 m), V(beam, L/2), N(beam, right)   of a section of a straight "
+    "body\n"
     "                         min(block.x), max(rod.right.y)   over the run\n"
     "                         time(land), count(land)   of an event of the file, a kind (stick) or one of a\n"
     "                                                   body (block.stick): first time, number\n"

@@ -48,8 +48,22 @@ FBD_API void fbd_section_free(fbd_section *section);
 
 FBD_API double fbd_section_length(const fbd_section *section);
 
-/* Read a place: a named point of the body, or a length ("1.2 m"). Returns false with a note in `errors`:
- * `bad-place`. */
+/* The body and the state of a section. */
+typedef struct fbd_section_source {
+    const fbd_model *model;
+    const char *body;
+    double t;
+    bool at_rest;
+} fbd_section_source;
+
+FBD_API fbd_section_source fbd_section_source_of(const fbd_section *section);
+
+/* The ends of the intervals of x on which N, V and M are smooth, 0 and the length included, in ascending order. Fills at
+ * most `room` of them; returns their number. */
+FBD_API size_t fbd_section_ends(const fbd_section *section, double *ends, size_t room);
+
+/* Read a place: a named point of the body, or a length of numbers and parameters ("1.2 m", "L/2"). Returns false with a
+ * note in `errors`: `bad-place`, or those of an expression. */
 FBD_API bool fbd_section_place(const fbd_section *section, const char *text, double *x, fbd_errors *errors);
 
 typedef struct fbd_cut {

@@ -3,18 +3,17 @@
 
 #include <math.h>
 
-static double value_of(const struct extreme *extreme, const struct fbd_state *state)
+static double value_of(const struct extreme *extreme, const struct fbd_state *state, fbd_errors *errors)
 {
-    double values[world_parts];
-    if (extreme->index >= 0) return state->y[extreme->index];
-    const struct vec point = world_point(state->model, extreme->point.body, extreme->point.point);
-    world_values(state, extreme->point.body, point, values);
-    return values[extreme->point.part];
+    struct column_view view;
+    column_view_begin(&view, state, NULL, NULL, NULL);
+    view.errors = errors;
+    return run_column_value(&extreme->column, &view);
 }
 
-void extremes_start(struct extreme *extremes, size_t count, const struct fbd_state *state)
+void extremes_start(struct extreme *extremes, size_t count, const struct fbd_state *state, fbd_errors *errors)
 {
-    for (size_t i = 0; i < count; i++) extremes[i].value = value_of(&extremes[i], state);
+    for (size_t i = 0; i < count; i++) extremes[i].value = value_of(&extremes[i], state, errors);
 }
 
 /* The function sign * y[index], to be maximized. */
@@ -22,13 +21,16 @@ struct look {
     struct ensemble *run;
     struct fbd_state *probe;
     const struct extreme *extreme;
+    fbd_errors *errors;
     bool failed;
 };
 
 static double value_at(struct look *look, double t)
 {
     if (!ensemble_look(look->run, t, look->probe)) look->failed = true;
-    return look->extreme->sign * value_of(look->extreme, look->probe);
+    const double value = value_of(look->extreme, look->probe, look->errors);
+    if (isnan(value)) look->failed = true;
+    return look->extreme->sign * value;
 }
 
 /* The maximum in [a, b], assumed to be the only one there. */
@@ -57,9 +59,9 @@ static double golden_section(struct look *look, double a, double b)
 
 enum { parts = 8 };
 
-static bool one(struct extreme *extreme, struct ensemble *run, struct fbd_state *probe, const double *samples)
+static bool one(struct look *look, struct extreme *extreme, const double *samples)
 {
-    struct look look = {run, probe, extreme, false};
+    const struct ensemble *run = look->run;
     double from = run->from, width = (run->t - from) / parts, best = extreme->sign * extreme->value;
     int at = 0;
     for (int k = 1; k <= parts; k++)
@@ -69,21 +71,22 @@ static bool one(struct extreme *extreme, struct ensemble *run, struct fbd_state 
      * from their differences. */
     int low = at > 0 ? at - 1 : 0, high = at < parts ? at + 1 : parts;
     double reach = samples[at] + fmax(samples[at] - samples[low], samples[at] - samples[high]);
-    if (!(reach < best)) best = fmax(best, golden_section(&look, from + low * width, from + high * width));
+    if (!(reach < best)) best = fmax(best, golden_section(look, from + low * width, from + high * width));
     extreme->value = extreme->sign * best;
-    return !look.failed;
+    return !look->failed;
 }
 
-bool extremes_step(struct extreme *extremes, size_t count, struct ensemble *run, struct fbd_state *probe)
+bool extremes_step(struct extreme *extremes, size_t count, struct ensemble *run, struct fbd_state *probe,
+                   fbd_errors *errors)
 {
     double from = run->from, to = run->t;
     if (!(to > from)) return true;
     for (size_t i = 0; i < count; i++) {
-        struct look look = {run, probe, &extremes[i], false};
+        struct look look = {run, probe, &extremes[i], errors, false};
         double samples[parts + 1];
         for (int k = 0; k <= parts; k++)
             samples[k] = value_at(&look, k == parts ? to : from + k * ((to - from) / parts));
-        if (look.failed || !one(&extremes[i], run, probe, samples)) return false;
+        if (look.failed || !one(&look, &extremes[i], samples)) return false;
     }
     return true;
 }

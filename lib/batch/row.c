@@ -122,24 +122,25 @@ static void lose(struct text *text)
     text->failed = true;
 }
 
-/* Append the first error with its position; no error means that memory is out. */
+void row_write_reason(fbd_errors *errors, char *reason, size_t size)
+{
+    const fbd_error *note = errors->out_of_memory ? NULL : diag_first_error(errors);
+    const char *file = note && note->file ? note->file : "model";
+    reason[0] = '\0';
+    if (note && note->line > 0)
+        snprintf(reason, size, "%s:%d:%d: %s [%s]", file, note->line, note->column, note->message, note->id);
+    else if (note)
+        snprintf(reason, size, "%s: %s [%s]", file, note->message, note->id);
+}
+
+/* Append an error in place of the columns; no error means that memory is out. */
 static void put_wrong(const struct row_maker *maker, fbd_errors *errors, struct text *text)
 {
     const struct columns *columns = &maker->table->columns;
-    char reason[600] = "";
+    char reason[row_reason_room];
     for (size_t i = 0; i < columns->count + 1; i++) text_add(text, ","); /* plus the number of events */
-    const fbd_error *note;
-    for (size_t i = 0; (note = errors->out_of_memory ? NULL : diag_get(errors, i)) != NULL; i++) {
-        if (note->severity != FBD_ERROR) continue;
-        const char *file = note->file ? note->file : "model";
-        if (note->line > 0)
-            snprintf(reason, sizeof reason, "%s:%d:%d: %s [%s]", file, note->line, note->column,
-                     note->message, note->id);
-        else
-            snprintf(reason, sizeof reason, "%s: %s [%s]", file, note->message, note->id);
-        break;
-    }
-    if (!note) lose(text);
+    row_write_reason(errors, reason, sizeof reason);
+    if (!reason[0]) lose(text);
     rows_put_end(text, "wrong", reason);
 }
 
@@ -216,7 +217,7 @@ static bool wants_words(const struct row_maker *maker)
 /* Carry the run to its end, with ledger and extremes if required. Returns false when it was stopped or memory
  * is out. */
 static bool carry(struct row_maker *maker, struct ensemble *run, struct ledger *ledger,
-                  struct fbd_state *probe)
+                  struct fbd_state *probe, fbd_errors *errors)
 {
     size_t extremes = maker->table->columns.extreme_count;
     const bool words = wants_words(maker);
@@ -229,10 +230,10 @@ static bool carry(struct row_maker *maker, struct ensemble *run, struct ledger *
             !word_log_step(&maker->words, run, probe))
             run->outcome = FBD_OUT_OF_MEMORY;
         if (!(run->t > run->from)) continue; /* no step was made */
-        if (maker->table->columns.at_count &&
-            !columns_step(&maker->table->columns, run, seen, probe, maker->at))
+        if ((maker->table->columns.at_count &&
+             !columns_step(&maker->table->columns, run, seen, probe, maker->at, errors)) ||
+            (extremes && !extremes_step(maker->extremes, extremes, run, probe, errors)))
             run->outcome = FBD_FAILED;
-        if (extremes && !extremes_step(maker->extremes, extremes, run, probe)) run->outcome = FBD_FAILED;
     }
     if (words && run->refused && !word_log_step(&maker->words, run, probe)) run->outcome = FBD_OUT_OF_MEMORY;
     if (ledger && !ledger_at(ledger, run, ledger->work)) run->outcome = FBD_FAILED;
@@ -259,7 +260,7 @@ static bool is_balanced(struct ensemble *run, struct ledger *ledger, char *reaso
 /* Append the outcome; for a refused start its id and, mostly, a position in the file. */
 static void put_outcome(const struct ensemble *run, struct text *text)
 {
-    char reason[600];
+    char reason[row_reason_room];
     const char *file = run->model->scene->file ? run->model->scene->file : "model";
     if (run->refused && run->refused->end.refusal_at.line > 0)
         snprintf(reason, sizeof reason, "%s:%d:%d: %s [%s]", file, run->refused->end.refusal_at.line,
@@ -271,7 +272,7 @@ static void put_outcome(const struct ensemble *run, struct text *text)
 
 /* Append the columns of a finished run. */
 static enum row_end put_run(struct row_maker *maker, struct ensemble *run, struct ledger *ledger,
-                            struct text *text)
+                            struct text *text, fbd_errors *errors)
 {
     const struct columns *columns = &maker->table->columns;
     bool ended = run->outcome == FBD_DONE || run->outcome == FBD_STOPPED;
@@ -282,14 +283,17 @@ static enum row_end put_run(struct row_maker *maker, struct ensemble *run, struc
         return row_failed;
     }
     const struct observed observed = {run, ledger, maker->extremes, maker->at, &maker->words};
-    columns_put(columns, &observed, text);
+    columns_put(columns, &observed, text, errors);
     if (maker->story) story_put(&observed, maker->story);
     text_add(text, ",");
     text_exact(text, (double)run->event_count);
-    char reason[100];
+    char reason[row_reason_room];
+    row_write_reason(errors, reason, sizeof reason);
     ended = run->outcome == FBD_DONE || run->outcome == FBD_STOPPED;
-    if (ended && !is_balanced(run, ledger, reason, sizeof reason)) {
-        rows_put_end(text, "inaccurate", reason);
+    const bool valued = !reason[0] || run->reason[0];
+    if (errors->out_of_memory) lose(text);
+    if (!valued || (ended && !is_balanced(run, ledger, reason, sizeof reason))) {
+        rows_put_end(text, valued ? "inaccurate" : "failed", reason);
         return row_failed;
     }
     put_outcome(run, text);
@@ -319,14 +323,14 @@ static enum row_end simulate(struct row_maker *maker, struct ensemble *run, stru
     if (ready && (columns->extreme_count || columns->at_count || wants_words(maker))) {
         probe = state_new(model);
         ready = probe != NULL;
-        extremes_start(maker->extremes, columns->extreme_count, ensemble_state(run));
+        extremes_start(maker->extremes, columns->extreme_count, ensemble_state(run), errors);
     }
     struct ledger *kept = columns->ledger ? &ledger : NULL;
     enum row_end end = row_failed;
     if (!ready)
         put_wrong(maker, errors, text);
     else
-        end = carry(maker, run, kept, probe) ? put_run(maker, run, kept, text) : row_stopped;
+        end = carry(maker, run, kept, probe, errors) ? put_run(maker, run, kept, text, errors) : row_stopped;
     if (columns->ledger) ledger_free(&ledger);
     state_free(probe);
     return end;
@@ -385,7 +389,7 @@ static struct scene *patched(struct row_maker *maker)
     return maker->patch ? patch_apply(maker->patch, maker->overrides) : NULL;
 }
 
-static struct fbd_model *make_model(struct row_maker *maker, fbd_errors *errors)
+struct fbd_model *row_model(struct row_maker *maker, fbd_errors *errors)
 {
     const struct rows *table = maker->table;
     size_t count = table->source.count + table->fixed_count;
@@ -402,7 +406,7 @@ bool row_open(struct row_maker *maker, uint64_t run, struct open_row *row, struc
     if (!row->errors || !row_maker_set(maker, run)) lose(text);
     if (text->failed) return false;
     put_start(maker, run, text);
-    row->model = make_model(maker, row->errors);
+    row->model = row_model(maker, row->errors);
     row->run = row->model ? start_run(maker, row->model, row->errors) : NULL;
     if (!row->run) put_wrong(maker, row->errors, text);
     return row->run != NULL;
@@ -418,7 +422,7 @@ void row_close(struct open_row *row)
 
 enum row_end row_put(struct row_maker *maker, const struct open_row *row, struct text *text)
 {
-    return put_run(maker, row->run, NULL, text);
+    return put_run(maker, row->run, NULL, text, row->errors);
 }
 
 /* ---- as numbers */

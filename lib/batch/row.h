@@ -46,6 +46,13 @@ void row_maker_end(struct row_maker *maker);
 /* Set the overrides to the values of a run (row_make does it). False when memory is out. */
 bool row_maker_set(struct row_maker *maker, uint64_t run);
 
+/* The model of the values that are set; NULL with notes. */
+struct fbd_model *row_model(struct row_maker *maker, fbd_errors *errors);
+
+/* The first error with its position, "" without one. */
+void row_write_reason(fbd_errors *errors, char *reason, size_t size);
+enum { row_reason_room = 600 };
+
 /* A row whose run has not ended. */
 struct open_row {
     fbd_errors *errors;

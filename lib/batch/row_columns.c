@@ -50,21 +50,25 @@ static bool add_quantity(struct list *list, const struct run_column *quantity)
                                      .quantity = *quantity});
 }
 
-/* Of a component of y, or of a point; false for others. */
+/* A quantity that is available at any state: a component of y, of a point, or a section. */
+static bool find_watched(struct list *list, const char *name, struct run_column *quantity)
+{
+    if (section_is_name(name))
+        return run_column_of_section(list->model, list->arena, name, quantity, list->errors);
+    return run_columns_find(&list->known, name, quantity) &&
+           (quantity->kind == column_point || column_is_entry(quantity));
+}
+
+/* False for other quantities. */
 static bool add_extreme(struct list *list, int sign, const char *name)
 {
     struct columns *columns = list->columns;
     struct run_column quantity;
-    if (!run_columns_find(&list->known, name, &quantity)) return false;
-    const bool point = quantity.kind == column_point;
-    if (!point && !column_is_entry(&quantity)) return false;
+    if (!find_watched(list, name, &quantity)) return false;
     struct extreme *larger = ARENA_ARRAY(list->arena, columns->extreme_count + 1, struct extreme);
     if (!larger) return false;
     if (columns->extreme_count) memcpy(larger, columns->extremes, columns->extreme_count * sizeof *larger);
-    larger[columns->extreme_count] =
-        (struct extreme){.index = point ? -1 : quantity.entry,
-                         .point = {quantity.body, quantity.point, (enum world_part)quantity.part},
-                         .sign = sign};
+    larger[columns->extreme_count] = (struct extreme){.column = quantity, .sign = sign};
     columns->extremes = larger;
     const char *text =
         arena_printf(list->arena, "%s(%s) [%s]", sign > 0 ? "max" : "min", quantity.name, quantity.unit);
@@ -185,11 +189,11 @@ static bool add_at(struct list *list, char *argument)
     *comma = '\0';
     const char *name = comma + 1 + strspn(comma + 1, " ");
     if (!find_event(list->model, argument, &column) || column.event >= word_slips ||
-        !run_columns_find(&list->known, name, &column.quantity))
+        !find_watched(list, name, &column.quantity))
         return false;
-    if (column.quantity.kind != column_point && !column_is_entry(&column.quantity)) return false;
     list->columns->at_count++;
-    column.title = arena_printf(list->arena, "at(%s %s) [%s]", argument, name, column.quantity.unit);
+    column.title =
+        arena_printf(list->arena, "at(%s %s) [%s]", argument, column.quantity.name, column.quantity.unit);
     return add(list, column);
 }
 
@@ -234,6 +238,7 @@ static bool add_named(struct list *list, char *name)
     struct run_column quantity;
     if (strcmp(name, "final") == 0 || strcmp(name, "times") == 0 || strcmp(name, "energy") == 0)
         return add_group(list, name);
+    if (section_is_name(name)) return find_watched(list, name, &quantity) && add_quantity(list, &quantity);
     if (cut_call(name, &argument)) return add_call(list, name, argument);
     if (strcmp(name, "steps") == 0) return add(list, (struct column){.title = "steps", .kind = row_steps});
     if (strcmp(name, "rhs") == 0) return add(list, (struct column){.title = "rhs", .kind = row_rhs});
@@ -275,8 +280,9 @@ static bool add_list(struct list *list, const char *text)
         memcpy(name, text, length);
         name[length] = '\0';
         memcpy(shown, name, sizeof name);
+        const size_t noted = list->errors->errors;
         if (add_named(list, name) || list->arena->failed || list->known.arena.failed) continue;
-        note_unknown(list, shown);
+        if (list->errors->errors == noted) note_unknown(list, shown);
         fine = false;
     }
     return fine;
@@ -356,7 +362,7 @@ static void put(const struct column *column, const struct observed *o, struct co
 {
     switch (column->kind) {
     case row_quantity: put_number(text, run_column_value(&column->quantity, view)); return;
-    case row_extreme: put_number(text, o->extremes[column->index].value / column->quantity.size); return;
+    case row_extreme: put_number(text, o->extremes[column->index].value); return;
     case row_time:
     case row_count: put_event(column, o, text); return;
     case row_at: put_number(text, o->at[column->index]); return;
@@ -367,7 +373,7 @@ static void put(const struct column *column, const struct observed *o, struct co
 }
 
 bool columns_step(const struct columns *columns, struct ensemble *run, size_t seen, struct fbd_state *probe,
-                  double *at)
+                  double *at, fbd_errors *errors)
 {
     struct column_view view;
     for (size_t e = seen; e < run->event_count; e++) {
@@ -377,17 +383,21 @@ bool columns_step(const struct columns *columns, struct ensemble *run, size_t se
             if (!is_meant(column, &run->events[e])) continue;
             if (!ensemble_look_before(run, run->events[e].t, probe)) return false;
             column_view_begin(&view, probe, NULL, NULL, NULL);
+            view.errors = errors;
             at[column->index] = run_column_value(&column->quantity, &view);
+            if (isnan(at[column->index])) return false;
         }
     }
     return true;
 }
 
-void columns_put(const struct columns *columns, const struct observed *observed, struct text *text)
+void columns_put(const struct columns *columns, const struct observed *observed, struct text *text,
+                 fbd_errors *errors)
 {
     struct column_view view;
     column_view_begin(&view, ensemble_state(observed->run), observed->ledger,
                       observed->ledger ? observed->ledger->work : NULL, NULL);
+    view.errors = errors;
     for (size_t i = 0; i < columns->count; i++) {
         text_add(text, ",");
         put(&columns->list[i], observed, &view, text);

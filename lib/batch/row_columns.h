@@ -5,11 +5,12 @@
  *
  *     t, block.x, block.v          at the end of the run
  *     rod.right.x, .vx, .ax ...    of a point in the world, at the end of the run
- *     min(block.x), max(rod.right.y)   over the run
+ *     M(beam, 0.4 m)            of a section (section/name.h), at the end of the run
+ *     min(block.x), max(rod.right.y)   over the run; also of a section
  *     time(land), count(land)      of an event of the file: time of the first, number; also of a kind of event,
  *                                  time(stick), and of one body, time(block.stick); or of a word for an
  *                                  outcome, time(block.slips) (row_words.h), time(cord.breaks)
- *     at(wall, ball.y)             a coordinate, a rate or of a point, just before the first of such an event
+ *     at(wall, ball.y)             a coordinate, a rate, of a point or a section, just before the first of such an event
  *     R                            a parameter of the file
  *     energy.kinetic, .potential, .work, .residual    at the end
  *     block.friction.work          work of a force or moment
@@ -71,11 +72,12 @@ struct observed {
 };
 
 /* Take the values of row_at at the events of the last step, from event `seen` on. `probe` is a scratch state.
- * False when the dense output is not available. */
+ * False when the dense output is not available, or the quantity has no value. */
 bool columns_step(const struct columns *columns, struct ensemble *run, size_t seen, struct fbd_state *probe,
-                  double *at);
+                  double *at, fbd_errors *errors);
 
-/* Append `,value` for each column; the value is empty if it does not exist. */
-void columns_put(const struct columns *columns, const struct observed *observed, struct text *text);
+/* Append `,value` for each column; the value is empty if it does not exist, with a note for a section. */
+void columns_put(const struct columns *columns, const struct observed *observed, struct text *text,
+                 fbd_errors *errors);
 
 #endif

@@ -35,32 +35,58 @@ static bool refuse(fbd_errors *errors, const char *text, const char *why)
 
 /* ---- the outputs that it names */
 
-/* The length of `min(NAME)`, `max(NAME)`, `time(NAME)`, `count(NAME)` or `at(EVENT, NAME)`, or 0. */
+/* The length of the parentheses that the text begins with, or 0. */
+static size_t braces_length(const char *text)
+{
+    int depth = 0;
+    for (size_t i = 0; text[i]; i++) {
+        depth += (text[i] == '(') - (text[i] == ')');
+        if (depth == 0) return i > 0 ? i + 1 : 0;
+    }
+    return 0;
+}
+
+/* The length of `min(NAME)`, `max(NAME)`, `time(NAME)`, `count(NAME)`, `at(EVENT, NAME)` or a section (section/name.h),
+ * whose function has `name` bytes; or 0. `min(a, b)` and `max(2*x)` are functions of the language. */
 static size_t call_length(const char *text, size_t name)
 {
-    static const char *const functions[] = {"min", "max", "time", "count"};
-    if (text[name] != '(') return 0;
-    const char *argument = text + name + 1, *end = argument + strspn(argument, inside);
-    const bool at = name == 2 && strncmp(text, "at", 2) == 0;
-    if (at && *end == ',') end += 1 + strspn(end + 1, " ");
-    if (at) end += strspn(end, inside);
-    if (end == argument || *end != ')') return 0;
-    if (at) return (size_t)(end + 1 - text);
-    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
-        if (strlen(functions[i]) == name && strncmp(functions[i], text, name) == 0)
-            return (size_t)(end + 1 - text);
+    static const char *const functions[] = {"min", "max", "time", "count", "at", "N", "V", "M"};
+    enum { names = 4, count = sizeof functions / sizeof *functions }; /* those of one name */
+    const char *argument = text + name + 1;
+    const size_t length = text[name] == '(' ? braces_length(text + name) : 0,
+                 inner = length ? strspn(argument, inside) : 0;
+    const bool section = inner == 1 && strchr("NVM", argument[0]) && argument[1] == '(';
+    for (size_t i = 0; length > 2 && i < count; i++) {
+        if (strlen(functions[i]) != name || strncmp(functions[i], text, name) != 0) continue;
+        return i >= names || section || inner == length - 2 ? name + length : 0;
+    }
     return 0;
+}
+
+/* Is the masked text that of another output, as of `M(L/2)` and `M(L*2)`? */
+static bool is_taken(const struct row_formula *formula, const char *at, size_t length)
+{
+    for (size_t i = 0; i < formula->count; i++)
+        if (strlen(formula->masked[i]) == length && strncmp(formula->masked[i], at, length) == 0) return true;
+    return false;
 }
 
 static bool add_output(struct row_formula *formula, char *at, size_t length)
 {
     const char *output = arena_text(formula->arena, at, length);
-    for (size_t i = 0; i < length; i++)
-        if (strchr("(, )", at[i])) at[i] = '_';
+    const bool call = output && strchr(output, '(');
+    if (!output) return false;
+    for (size_t i = 0; i < formula->count; i++) {
+        if (strcmp(formula->outputs[i], output) != 0) continue;
+        memcpy(at, formula->masked[i], length);
+        return true;
+    }
+    for (size_t i = 0; call && i < length; i++)
+        if (at[i] == '.' || !strchr(inside, at[i])) at[i] = '_';
+    for (char other = 'a'; call && is_taken(formula, at, length) && other <= 'z'; other++)
+        at[length - 1] = other;
     const char *masked = arena_text(formula->arena, at, length);
-    if (!output || !masked) return false;
-    for (size_t i = 0; i < formula->count; i++)
-        if (strcmp(formula->outputs[i], output) == 0) return true;
+    if (!masked) return false;
     if (formula->count == most_outputs) return false;
     formula->outputs[formula->count] = output;
     formula->masked[formula->count++] = masked;

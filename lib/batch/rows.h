@@ -90,4 +90,9 @@ struct row_look {
 enum row_end row_look(struct row_maker *maker, uint64_t run, struct row_look *look);
 void row_look_free(struct row_look *look);
 
+/* The same of the scene at rest at its start, in equilibrium: without a run. Before, rows_rest tells whether all columns
+ * are known there: section forces, coordinates and parameters; false with a note `unknown-output`. */
+bool rows_rest(const struct rows *rows, fbd_errors *errors);
+enum row_end row_look_at_rest(struct row_maker *maker, uint64_t run, struct row_look *look);
+
 #endif

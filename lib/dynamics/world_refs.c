@@ -23,6 +23,7 @@ static double choose(enum absolute_kind kind, struct motion_of_point at, double 
     case absolute_ay:
     case absolute_alpha:
     case absolute_inertia:
+    case absolute_section:
     case absolute_work:
     case absolute_impulse:
     case absolute_mass:

@@ -90,6 +90,9 @@ struct scope {
     /* True if `word` takes an expression in brackets whose names are looked up in another sense, as
      * `before(v)`. That sense holds from then on until a call with NULL. May be NULL. */
     bool (*sense)(void *context, const char *word);
+    /* The variable that `name` is at a constant length x, as the bending moment `M(0.4[m])`; symbol_unknown if it has no
+     * such meaning, which is asked before by NAN for x; `free` if bare numbers are lengths then. May be NULL. */
+    struct symbol (*at_length)(void *context, const char *name, double x, struct pos at);
     void *context;
     enum unit_system units;
 };

@@ -407,6 +407,35 @@ static bool has_sense(struct parser *p, struct token name)
     return word && p->scope->sense && p->scope->sense(p->scope->context, word);
 }
 
+/* Is it a variable at a constant length? Its text, and whether it takes bare numbers. */
+static bool is_at_length(struct parser *p, struct token name, const char **text, bool *bare)
+{
+    *text = arena_text(&p->builder->scratch, p->lexer.text + name.start, name.length);
+    if (!*text || !p->scope->at_length) return false;
+    const struct symbol symbol = p->scope->at_length(p->scope->context, *text, NAN, name.at);
+    *bare = symbol.free;
+    return symbol.kind != symbol_unknown;
+}
+
+/* `M(0.4[m])` */
+static struct operand read_at_length(struct parser *p, const char *text, bool bare, struct token name)
+{
+    const struct operand x = parse_expression(p);
+    const bool length = x.kind.free ? bare : dim_equal(x.kind.dim, DIM_LENGTH);
+    if (!p->stopped && another_argument(p))
+        parse_stop(p, "argument-count", name.at, NULL, "there must be one expression in these brackets");
+    if (p->stopped || x.kind.failed) return parse_failed(p, name.at);
+    if (x.place != place_constant || x.kind.truth || !length) {
+        diag_add(p->errors, FBD_ERROR, "bad-place", x.at,
+                 diag_hint(p->errors, "as `%s(0.4[m])` or `%s(L/2)`", text, text),
+                 "the place of `%s` must be a length, of numbers and parameters", text);
+        return parse_failed(p, name.at);
+    }
+    const struct symbol symbol = p->scope->at_length(p->scope->context, text, x.value, name.at);
+    if (symbol.kind != symbol_variable) return parse_failed(p, name.at);
+    return build_variable(symbol.slot, (struct kind){.dim = symbol.dim}, name.at);
+}
+
 struct operand function_call(struct parser *p, struct token name)
 {
     int base = p->builder->depth;
@@ -414,8 +443,12 @@ struct operand function_call(struct parser *p, struct token name)
     if (!parse_enter(p)) return parse_failed(p, name.at);
     parse_advance(p);
     struct operand result;
+    const char *variable;
+    bool bare;
     if (!function && has_sense(p, name)) {
         result = read_in_sense(p, name);
+    } else if (!function && is_at_length(p, name, &variable, &bare)) {
+        result = read_at_length(p, variable, bare, name);
     } else if (function && function->rule == rule_if) {
         result = read_if(p, function, base, name);
     } else {

@@ -241,6 +241,13 @@ static bool is_table(const struct writing *w, const char *name)
     return table.table || table.failed;
 }
 
+/* True for a variable at a length, as `M(L/2)`. */
+static bool is_at_length(const struct writing *w, const char *name)
+{
+    return w->scope->at_length &&
+           w->scope->at_length(w->scope->context, name, NAN, w->at).kind != symbol_unknown;
+}
+
 /* True if the brackets behind `end` begin a sense of names; it ends where they close. */
 static bool begins_sense(struct writing *w, const char *name, size_t end)
 {
@@ -338,7 +345,7 @@ bool run_add(struct writing *w, const struct run *run, size_t end)
         return add_item(w, takes_bare(function) ? item_function : item_call, run, 0, run->count, function);
     if (called && spelled && marks == 0 && begins_sense(w, name.text, end))
         return add_item(w, item_call, run, 0, run->count, name.text);
-    if (called && spelled && marks == 0 && is_table(w, name.text))
+    if (called && spelled && marks == 0 && (is_table(w, name.text) || is_at_length(w, name.text)))
         return add_item(w, item_call, run, 0, run->count, name.text);
     int count = match(w, run, 0, run->count, names);
     if (count == 1) return add_item(w, item_name, run, 0, run->count, names[0].text);

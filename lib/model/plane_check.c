@@ -112,33 +112,42 @@ static void check_weight(struct builder *builder, const struct constraint *sourc
     const int carried = carried_by(builder->model, source->body[0]);
     if (carried < 0) return;
     diag_add(builder->errors, FBD_ERROR, "missing-key", source->at,
-             "write `normal`, with the weight of all that it carries",
+             "add `normal`, with the weight of all that it carries",
              "`%s` carries `%s`: the force on its plane is larger than its own weight",
              bodies[source->body[0]].name, bodies[carried].name);
 }
 
 /* ---- static friction */
 
-/* Does it transmit forces between bodies? The plane of a driven body does not: its motion is given. */
-static bool links(const struct fbd_model *model, const struct constraint *source)
-{
-    if (source->kind != constraint_plane) return true;
-    return source->body[1] != ground_body && model->bodies[source->body[1]].drive < 0;
-}
-
-static bool may_be_linked(const struct fbd_model *model)
+/* Does a body lie on one that is not driven? The plane of a driven body transmits no forces: its motion is given. */
+static bool has_loose_plane(const struct fbd_model *model)
 {
     const struct scene *scene = model->scene;
-    bool linked = model->coupled_count > model->listed_count;
-    for (size_t i = 0; i < scene->constraint_count; i++) linked |= links(model, &scene->constraints[i]);
-    for (size_t b = 0; b < model->body_count; b++) linked |= model->bodies[b].parent >= 0;
-    return linked;
+    for (size_t i = 0; i < scene->constraint_count; i++) {
+        const struct constraint *source = &scene->constraints[i];
+        if (source->kind == constraint_plane && source->body[1] != ground_body &&
+            model->bodies[source->body[1]].drive < 0)
+            return true;
+    }
+    return false;
 }
 
-static void refuse(struct builder *builder, const char *name, struct pos at)
+/* Do joints or other couplings transmit forces between bodies? */
+static bool is_joined(const struct fbd_model *model)
+{
+    const struct scene *scene = model->scene;
+    bool joined = model->coupled_count > model->listed_count;
+    for (size_t i = 0; i < scene->constraint_count; i++)
+        joined |= scene->constraints[i].kind != constraint_plane;
+    for (size_t b = 0; b < model->body_count; b++) joined |= model->bodies[b].parent >= 0;
+    return joined;
+}
+
+static void refuse(struct builder *builder, const char *name, struct pos at, bool loose)
 {
     diag_add(builder->errors, FBD_ERROR, "not-here", at,
-             "let `static` be `kinetic`, or drive the body that is the plane",
+             loose ? "let `static` be `kinetic`, or drive the body that is the plane"
+                   : "let `static` be `kinetic`",
              "the static friction of `%s` is larger than its kinetic friction, and a body that begins to "
              "slip on a "
              "plane may break it by forces between them: such a start is not decided to rounding",
@@ -160,10 +169,12 @@ void planes_check(struct builder *builder)
         const struct constraint *source =
             mode->coupling >= 0 ? model->tree->couplings[mode->coupling].source : NULL;
         if (others == 0 || !holds_by_more(mode)) continue;
-        if (!may_be_linked(model) && !(mode->kind == mode_plane && points_under(scene, source->body[0]) > 1))
-            continue;
+        const bool loose = has_loose_plane(model), joined = is_joined(model),
+                   shared = source && mode->kind == mode_plane && points_under(scene, source->body[0]) > 1;
+        if (!loose && !joined && !shared) continue;
         const struct load *load = source ? NULL : model->loads[mode->load].source;
-        refuse(builder, source ? source->name : load->name, source ? source->at : load->at);
+        refuse(builder, source ? source->name : load->name, source ? source->at : load->at,
+               !joined && !shared);
         return;
     }
 }

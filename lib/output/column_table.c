@@ -285,6 +285,14 @@ static void point_values(const struct run_column *c, int count, struct column_vi
     for (int k = 0; k < count; k++) values[k] = all[c[k].part];
 }
 
+static void section_values(const struct run_column *c, int count, struct column_view *view, double *values)
+{
+    struct diag_call call;
+    (void)count;
+    values[0] = section_name_value(c->section, view->state, view->at_rest, diag_begin(&call, view->errors));
+    diag_end(&call);
+}
+
 /* The component along the motion, of `normal` the normal force. */
 static double share_of(const struct run_column *c, const struct arrow *arrow, const struct column_view *view)
 {
@@ -388,6 +396,7 @@ const struct column_row column_rows[column_kinds] = {
     [column_velocity] = {of_body, page, quantity_rate, 2, define_velocity, velocity_values, difference},
     [column_state] = {of_state, all, quantity_own, 1, define_state, entry_values, entry_error},
     [column_point] = {of_point, csv, quantity_own, world_parts, define_point, point_values, difference},
+    [column_section] = {of_body, 0, quantity_force, 1, NULL, section_values, NULL},
     [column_force] = {of_arrow, ledger | page, quantity_force, force_parts, define_force, force_values, difference},
     [column_arrow] = {of_arrow, page, quantity_arrow, 5, define_arrow, arrow_values, difference},
     [column_term] = {of_arrow, page, quantity_term, 3, define_term, term_values, difference},

@@ -101,9 +101,9 @@ static unsigned depends_on(const struct hand *hand, const struct fbd_state *stat
             *size += fabs(left - right) *
                      (k >= hand_slots ? named->sizes[k - hand_slots] : hand_slot_size(state, b, k, named));
         if (fabs(left - right) > 1e-9 * (fabs(left) + fabs(right)))
-            says |= k < hand_slots           ? 1U << k
-                    : kind == absolute_force ? (unsigned)hand_named_forces
-                                             : (unsigned)hand_others;
+            says |= k < hand_slots                                       ? 1U << k
+                    : kind == absolute_force || kind == absolute_section ? (unsigned)hand_named_forces
+                                                                         : (unsigned)hand_others;
     }
     return says;
 }

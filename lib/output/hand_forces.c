@@ -6,6 +6,7 @@
 #include "base/diag.h"
 #include "dynamics/constraint_view.h"
 #include "dynamics/mass.h"
+#include "section/name.h"
 
 /* ---- sizes */
 
@@ -286,7 +287,7 @@ static double place_value(const struct fbd_state *state, const struct model_abso
 
 bool hand_writes(enum absolute_kind kind)
 {
-    return kind == absolute_acceleration || (kind >= absolute_force && kind <= absolute_inertia);
+    return kind == absolute_acceleration || (kind >= absolute_force && kind <= absolute_section);
 }
 
 /* The largest force on a body, and the largest moment about G. */
@@ -343,14 +344,39 @@ static double size_of_force(const struct hand_force *force, struct forces_size s
     return force->name.dim.length == dim_moment.length ? size.moment : size.force;
 }
 
+/* The section forces of a body, those of `last` if it is of that body. */
+static fbd_section *section_of(const struct fbd_state *state, int body, fbd_section *last)
+{
+    struct diag_call call;
+    if (last && last->body == &state->model->bodies[body]) return last;
+    fbd_section_free(last);
+    fbd_section *section = section_new(state, false, body, diag_begin(&call, NULL));
+    diag_end(&call);
+    return section;
+}
+
+static void write_section(const struct fbd_section *section, const struct absolute *absolute, double *value,
+                          double *size)
+{
+    const double x = section ? section_snap(section, absolute->point.where.x) : NAN;
+    *value = section ? section_force_at(section, (enum section_force)absolute->part, x, false) : NAN;
+    *size = section ? section->size[absolute->part] : NAN;
+}
+
 void hand_named_write(const struct fbd_state *state, const struct hand_named *named, double *places)
 {
     const struct fbd_model *model = state->model;
     struct instant at = state_instant(state);
+    fbd_section *section = NULL;
     for (size_t k = 0; k < model->absolute_count; k++) {
         const struct model_absolute *absolute = &model->absolutes[k];
         const struct hand_sum *sum = &named->of[k];
         if (!hand_writes(absolute->kind)) continue;
+        if (absolute->kind == absolute_section) {
+            section = section_of(state, absolute->body, section);
+            write_section(section, &model->scene->absolutes[k], &places[k], &named->sizes[k]);
+            continue;
+        }
         places[k] = named->sizes[k] = 0;
         for (size_t i = 0; i < sum->count; i++) {
             struct forces_size size = size_of_forces(state, sum->forces[i]->name.body, named);
@@ -361,6 +387,7 @@ void hand_named_write(const struct fbd_state *state, const struct hand_named *na
         named->sizes[k] = size_of_name(state, absolute, size_of_forces(state, absolute->body, named));
         places[k] = place_value(state, absolute);
     }
+    fbd_section_free(section);
 }
 
 double hand_named_rate(const struct fbd_state *state, const struct hand_named *named, size_t k)
@@ -388,6 +415,20 @@ static struct fbd_model *compile(const struct document *document, const struct o
     return scene ? model_compile(scene, errors) : NULL;
 }
 
+/* The sections that derivations name exist. */
+static struct fbd_model *with_sections(struct fbd_model *model, fbd_errors *errors)
+{
+    bool fine = true;
+    for (size_t k = 0; model && k < model->absolute_count; k++) {
+        const struct absolute *one = &model->scene->absolutes[k];
+        if (one->kind == absolute_section)
+            fine = section_exists(model, one->body, one->point.where.x, one->at, errors) && fine;
+    }
+    if (fine) return model;
+    model_free(model);
+    return NULL;
+}
+
 bool hand_forces_list(const struct fbd_model *model, struct arena *arena, struct document *document)
 {
     struct hand_forces forces;
@@ -410,7 +451,7 @@ struct fbd_model *hands_compile(const struct document *document, const struct ov
 {
     const struct diag_mark mark = diag_mark(errors);
     struct fbd_model *model = compile(document, overrides, count, errors);
-    if (!model || !model->scene->hands_left) return model;
+    if (!model || !model->scene->hands_left) return with_sections(model, errors);
     struct document again = *document;
     struct arena arena = {0};
     bool listed = hand_forces_list(model, &arena, &again);
@@ -422,5 +463,5 @@ struct fbd_model *hands_compile(const struct document *document, const struct ov
     else
         diag_out_of_memory(errors);
     arena_free(&arena);
-    return model;
+    return with_sections(model, errors);
 }

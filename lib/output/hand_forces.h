@@ -66,7 +66,7 @@ struct hand_named {
 /* Find them, in the arena; false when memory is out. */
 bool hand_named_find(const struct fbd_model *model, struct arena *arena, struct hand_named *named);
 
-/* True for those forces, and for accelerations and inertias that only derivations name. */
+/* True for those forces, and for section forces, accelerations and inertias that only derivations name. */
 bool hand_writes(enum absolute_kind kind);
 
 /* Write the value of each to the entry of its absolute. */

@@ -3,10 +3,12 @@
  * An equation as a linear form of its unknowns, which identifies equations about the same unknowns, and
  * duplicates.
  */
+#include <stdint.h>
 #include <string.h>
 
 #include "output/hand.h"
 #include "output/hand_forces.h"
+#include "section/section.h"
 
 static int unknown_of_force(const struct fbd_model *model, int b, size_t arrow, int part)
 {
@@ -40,6 +42,17 @@ static void add_named(const struct fbd_state *state, const struct hand_force *fo
         form[unknown_of_force(state->model, b, force->arrow, (int)force->part)] += slope * force->sign;
 }
 
+/* The entry of a section force: N, V and M of one section have different ones. */
+static int unknown_of_section(const struct absolute *absolute)
+{
+    const float x = (float)absolute->point.where.x; /* places that differ by rounding are one */
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    const uint32_t places = (hand_unknowns - hand_unknown_force) / section_forces,
+                   place = ((bits ^ bits >> 16) + (uint32_t)absolute->body) * 2654435761U >> 16;
+    return hand_unknown_force + section_forces * (int)(place % places) + absolute->part;
+}
+
 /* Add N, the normal force that the body lists. */
 static void add_normal(const struct fbd_state *state, int b, struct arrow *arrows, double slope, double *form)
 {
@@ -70,7 +83,9 @@ void hand_form_at(const struct fbd_state *state, int b, int index, const struct 
         expr_eval_slot(hand->right, state->t, y, 1 + first + k, NULL, &right);
         const double slope = left - right;
         if (fabs(slope) <= 1e-9 * (fabs(left) + fabs(right))) continue;
-        if (k == hand_N)
+        if (kind == absolute_section)
+            form[unknown_of_section(&model->scene->absolutes[k - hand_slots])] += slope;
+        else if (k == hand_N)
             add_normal(state, b, named->arrows, slope, form);
         else if (kind != absolute_force)
             form[k < hand_mass ? k : most_coordinates_of_a_body] += slope;

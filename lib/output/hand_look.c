@@ -75,6 +75,7 @@ static bool letter_of(const struct fbd_model *model, int slot, struct letter *le
     }
     const enum absolute_kind kind = model->absolutes[absolute].kind;
     letter->absolute = &model->scene->absolutes[absolute];
+    if (kind == absolute_section) return false;
     if (kind == absolute_force) letter->kind = letter_force;
     if (kind == absolute_inertia) letter->kind = letter_inertia;
     return hand_writes(kind);

@@ -13,6 +13,7 @@
 #include "dynamics/rest_system.h"
 #include "output/hand.h"
 #include "output/hand_forces.h"
+#include "section/name.h"
 
 struct question {
     struct hand_check *check;
@@ -30,6 +31,12 @@ static double lack_of(const struct question *question, const double *y)
     return expr_eval(hand->left, t, y, NULL) - expr_eval(hand->right, t, y, NULL);
 }
 
+/* A force, or a section force. */
+static bool is_of_forces(const struct fbd_model *model, size_t k)
+{
+    return model->absolutes[k].kind == absolute_force || model->absolutes[k].kind == absolute_section;
+}
+
 /* Change of the line if each force in it changed by the force scale of the scene. */
 static double reach_of(const struct question *question)
 {
@@ -39,9 +46,8 @@ static double reach_of(const struct question *question)
     double reach = 0;
     for (size_t k = first + hand_N; k < hand_room(model); k++) {
         double left, right;
-        bool named =
-            k >= first + hand_slots && model->absolutes[k - first - hand_slots].kind == absolute_force;
-        if (k != first + hand_N && !named) continue;
+        if (k != first + hand_N && (k < first + hand_slots || !is_of_forces(model, k - first - hand_slots)))
+            continue;
         expr_eval_slot(question->hand->left, t, question->before, (int)(1 + k), NULL, &left);
         expr_eval_slot(question->hand->right, t, question->before, (int)(1 + k), NULL, &right);
         reach += fabs(left - right) * force * fmax(1, question->system.length);
@@ -57,13 +63,14 @@ static void note_name(const struct question *question)
     const double t = question->system.state->t;
     for (size_t k = 0; k < model->absolute_count; k++) {
         double left, right, change = question->after[first + k] - question->before[first + k];
-        if (model->absolutes[k].kind != absolute_force || change == 0) continue;
+        if (!is_of_forces(model, k) || change == 0) continue;
         expr_eval_slot(question->hand->left, t, question->before, (int)(1 + first + k), NULL, &left);
         expr_eval_slot(question->hand->right, t, question->before, (int)(1 + first + k), NULL, &right);
         if (fabs((left - right) * change) <= 1e-6 * question->size) continue;
         const struct absolute *absolute = &model->scene->absolutes[k];
         question->check->open_body = absolute->body;
-        format_into(question->check->open_force, sizeof question->check->open_force, "%s", absolute->force);
+        format_into(question->check->open_force, sizeof question->check->open_force, "%s",
+                    absolute->force ? absolute->force : section_symbols[absolute->part]);
         return;
     }
 }

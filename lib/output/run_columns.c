@@ -127,6 +127,23 @@ bool run_columns_find(struct run_columns *columns, const char *name, struct run_
     return find_point(columns, name, column) || find_work(columns, name, column);
 }
 
+bool run_column_of_section(const struct fbd_model *model, struct arena *arena, const char *name,
+                           struct run_column *column, fbd_errors *errors)
+{
+    struct section_name *section = ARENA_ARRAY(arena, 1, struct section_name);
+    if (!section || !section_name_read(model, arena, name, section, errors)) return false;
+    *column =
+        (struct run_column){.name = section->title,
+                            .unit = section->force == section_M ? moment_unit(model) : force_unit(model),
+                            .kind = column_section,
+                            .body = section->body,
+                            .index = -1,
+                            .entry = -1,
+                            .size = 1,
+                            .section = section};
+    return true;
+}
+
 /* ---- rows */
 
 void column_view_begin(struct column_view *view, const struct fbd_state *state, struct ledger *works,
@@ -134,6 +151,8 @@ void column_view_begin(struct column_view *view, const struct fbd_state *state, 
 {
     view->state = state;
     view->at = state_instant(state);
+    view->at_rest = false;
+    view->errors = NULL;
     view->ledger = works;
     view->work = work;
     view->arrows = arrows;

@@ -18,6 +18,7 @@
 
 #include "output/world.h"
 #include "record/bars.h"
+#include "section/name.h"
 
 enum column_kind {
     column_time,
@@ -32,6 +33,7 @@ enum column_kind {
     column_velocity,     /* of G */
     column_state,        /* of the user */
     column_point,        /* position, velocity and acceleration of an output point */
+    column_section,      /* a section force, by its name alone */
     column_force,        /* parts of an arrow */
     column_arrow,        /* fx, fy; point in the body frame; couple */
     column_term,         /* of an arrow in the equations of the coordinates */
@@ -77,6 +79,7 @@ struct run_column {
     bool extra;  /* a component of a force that the CSV has with `components` only */
     double size; /* of the displayed unit: the number in y is divided by it */
     int point;   /* of a body: world_point */
+    const struct section_name *section;
 };
 
 struct run_columns {
@@ -105,10 +108,16 @@ bool column_is_of_arrow(const struct run_column *column);
  * any point of a body (`rod.right.vx`), the work of any load. False if there is none. */
 bool run_columns_find(struct run_columns *columns, const char *name, struct run_column *column);
 
+/* The column of a section force, as `M(beam, 0.4 m)`, in the arena; false with a note (section/name.h). */
+bool run_column_of_section(const struct fbd_model *model, struct arena *arena, const char *name,
+                           struct run_column *column, fbd_errors *errors);
+
 /* A state at which the columns of a row are evaluated, with results that several of them share. */
 struct column_view {
     const struct fbd_state *state; /* evaluated */
     struct instant at;
+    bool at_rest;          /* the state is that of statics: section forces are without inertia */
+    fbd_errors *errors;    /* receives why a section force has no value; NULL after column_view_begin */
     struct ledger *ledger; /* NULL: works and energies are NAN */
     const double *work;    /* integrals up to the state */
     struct arrow *arrows;  /* room for those of any body */

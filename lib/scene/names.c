@@ -250,12 +250,37 @@ static struct table_symbol look_up_table(void *context, const char *name, struct
     return names->reader->definition_readers->table(names->reader, name, at);
 }
 
+/* Has the name another meaning, as the letter of a force? */
+static bool means_else(struct names *names, const char *name, struct pos at)
+{
+    struct reader *reader = names->reader;
+    const size_t absolutes = reader->scene->absolute_count;
+    const char *const *tables;
+    const size_t count = names_list_tables(names, &tables);
+    const bool known = look_up(names, name, at).kind != symbol_unknown;
+    reader->scene->absolute_count = absolutes;
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(tables[i], name) == 0) return true;
+    return known;
+}
+
+static struct symbol names_section(void *context, const char *name, double x, struct pos at)
+{
+    struct names *names = context;
+    struct symbol symbol = section_symbol(names, name, x, at);
+    const bool hidden = symbol.kind != symbol_unknown && means_else(names, name, at);
+    symbol.free = !hidden;
+    names->section_hidden |= hidden;
+    return hidden && !names->sections ? unknown : symbol;
+}
+
 struct scope names_scope(struct names *names)
 {
     return (struct scope){.lookup = look_up,
                           .table = look_up_table,
                           .tables = names_list_tables,
                           .sense = names_sense,
+                          .at_length = names_section,
                           .names = names_list,
                           .context = names,
                           .units = names->reader->scene->units};

@@ -57,7 +57,9 @@ struct names {
     bool along;                  /* `s` is the position along a distributed load, in slot 1 */
     enum hand_sense sense;       /* in a derivation: the time of its names */
     enum absolute_kind of_force; /* meaning of the name of a force: absolute_force, or its work or impulse */
-    const char *curve;           /* the parameter of a curve, for hints; NULL elsewhere */
+    bool sections; /* in a derivation `M(L/2)` is a section force, also where `M` has another meaning; */
+    bool section_hidden; /* such a name was read in its other meaning */
+    const char *curve;   /* the parameter of a curve, for hints; NULL elsewhere */
     /* In the `until` of one of these its reactions need no prefix; or NULL. */
     const struct constraint *of;
     const struct force_coupling *of_coupling;
@@ -121,6 +123,9 @@ struct symbol hand_numbered_symbol(const struct names *names, const char *name);
 
 /* A force of the diagrams in a derivation: of the current body, or `body.name` (names_force.c). */
 struct symbol force_symbol(const struct names *names, const char *name);
+
+/* A section force N, V or M of the current body, or `beam.M`, at the distance x from its first end (names_force.c). */
+struct symbol section_symbol(const struct names *names, const char *name, double x, struct pos at);
 
 /* Enter `initial`, `before`, `after`, `work` or `impulse` in a derivation, for struct scope (names_force.c). */
 bool names_sense(void *names, const char *word);

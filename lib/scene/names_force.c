@@ -4,6 +4,7 @@
  * compiled model has the list of forces: without it a derivation with an otherwise unknown name is skipped,
  * and read again later (hand_forces.h).
  */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -161,6 +162,25 @@ static struct symbol slot_of(const struct names *names, const struct absolute *f
     if (wanted.kind == absolute_work) symbol.dim = DIM_MOMENT;
     if (wanted.kind == absolute_impulse) symbol.dim = dim_times(dim, DIM_TIME);
     return symbol;
+}
+
+/* ---- section forces */
+
+struct symbol section_symbol(const struct names *names, const char *name, double x, struct pos at)
+{
+    static const char symbols[] = "NVM";
+    const char *own = name;
+    const int body = split_name(names, &own);
+    const char *one = own[0] && !own[1] ? strchr(symbols, own[0]) : NULL;
+    if (!one || names->place != place_hand || names->sense != sense_now || names_take_force(names))
+        return unknown;
+    const struct absolute section = {.body = body,
+                                     .point = {.kind = point_fixed, .where = {x, 0}},
+                                     .kind = absolute_section,
+                                     .part = (int)(one - symbols),
+                                     .at = at};
+    if (isnan(x)) return (struct symbol){.kind = symbol_variable};
+    return slot_of(names, &section, *one == 'M' ? DIM_MOMENT : DIM_FORCE);
 }
 
 /* ---- symbols declared in the file */

@@ -30,12 +30,18 @@ bool bodies_start(struct reader *reader)
 static bool check_body_name(struct reader *reader, const struct body *body)
 {
     if (!name_check(reader->errors, body->name, body->at, "a body")) return false;
-    bool time = strcmp(body->name, "t") == 0;
-    if (!time && strcmp(body->name, "ground") != 0) return true;
-    diag_add(reader->errors, FBD_ERROR, "reserved-name", body->at, "choose another name",
-             time ? "`t` cannot be a body: it is the time"
-                  : "`ground` cannot be a body: the ground does not move");
-    return false;
+    static const char *const reserved[][2] = {
+        {"t", "`t` cannot be a body: it is the time"},
+        {"ground", "`ground` cannot be a body: the ground does not move"},
+        {"energy", "`energy` cannot be a body: `energy.kinetic` is that of the scene"},
+    };
+    for (size_t i = 0; i < sizeof reserved / sizeof *reserved; i++) {
+        if (strcmp(body->name, reserved[i][0]) != 0) continue;
+        diag_add(reader->errors, FBD_ERROR, "reserved-name", body->at, "choose another name", "%s",
+                 reserved[i][1]);
+        return false;
+    }
+    return true;
 }
 
 /* True for a key of a body that is among the bodies by wrong indentation: `forces` in the column of `block`. */

@@ -9,20 +9,59 @@
 #include "scene/values.h"
 #include "scene/written.h"
 
-static bool read_equation(struct reader *reader, const struct node *node, const struct scope *scope,
-                          struct hand *hand)
+/* Read the two sides. */
+static bool read_sides(struct reader *reader, const struct node *node, const struct scope *scope,
+                       struct hand *hand, char *relation)
 {
     const struct expr_want want = {.any_dim = true, .what = "equation"};
     struct notation notation;
-    char relation = 0;
-    if (node->length == 0) return value_refuse(reader, node, "hand", "an equation", "write left = right");
     const struct node *read = written_node(reader, node, scope, true, &notation);
     if (!read) return false;
     hand->text = arena_text(reader->arena, read->text, read->length);
     struct diag_note *last = reader->errors->last;
-    bool fine = value_relation(reader, read, &want, scope, &hand->left, &relation, &hand->right);
+    bool fine = value_relation(reader, read, &want, scope, &hand->left, relation, &hand->right);
     if (notation.changed) written_places(reader, node, &notation, last);
-    if (!fine || !hand->text) return false;
+    return fine && hand->text;
+}
+
+/* `M(a)` is a product where `M` has another meaning, as the letter of a moment, else a section force. Where the dimensions
+ * of the line do not permit the product, a section force is meant; where they permit both, as in `M(a) = 0`, the line is
+ * refused. A bare number is no length beside another meaning: `N(1 - mu)` is a product. */
+static bool read_meaning(struct reader *reader, const struct node *node, const struct scope *scope,
+                         struct hand *hand, char *relation)
+{
+    struct names *names = scope->context;
+    const struct diag_mark mark = diag_mark(reader->errors);
+    names->sections = names->section_hidden = false;
+    const bool fine = read_sides(reader, node, scope, hand, relation);
+    if (!names->section_hidden || reader->scene->hands_left) return fine;
+    const struct diag_mark own = diag_mark(reader->errors);
+    const size_t absolutes = reader->scene->absolute_count;
+    struct hand other = *hand;
+    names->sections = true;
+    const bool section = read_sides(reader, node, scope, &other, relation);
+    if (section && fine) {
+        diag_add(reader->errors, FBD_ERROR, "ambiguous-notation", node->at,
+                 "write the product with `*`; of a section force give the zero its unit, as `M(a) = 0[N*m]`",
+                 "`%s` can be read in two ways: a name with parentheses is a product or a section force",
+                 hand->text);
+        return false;
+    }
+    diag_take_back(reader->errors, section ? mark : own);
+    if (section)
+        *hand = other;
+    else
+        reader->scene->absolute_count = absolutes;
+    names->sections = section;
+    return section || fine;
+}
+
+static bool read_equation(struct reader *reader, const struct node *node, const struct scope *scope,
+                          struct hand *hand)
+{
+    char relation = 0;
+    if (node->length == 0) return value_refuse(reader, node, "hand", "an equation", "write left = right");
+    if (!read_meaning(reader, node, scope, hand, &relation)) return false;
     const bool conserved = hand->kind == hand_conserved;
     if (relation == (conserved ? 0 : '=')) return true;
     diag_add(reader->errors, FBD_ERROR, "no-equation", node->at,

@@ -192,7 +192,7 @@ static bool read_inertia(struct reader *reader, int body, const struct node *map
     const bool k = node_find(inertia, "radius_of_gyration") != NULL;
     if (inertia->kind == node_map && !k && !node_find(inertia, "value")) {
         diag_add(reader->errors, FBD_ERROR, "missing-key", pair->at,
-                 "write `value: 0.2 kg*m^2`, or `radius_of_gyration: 12 cm`", "`inertia` needs `value`");
+                 "add `value: 0.2 kg*m^2`, or `radius_of_gyration: 12 cm`", "`inertia` needs `value`");
         fine = false;
     }
     if (!fields_exclude(reader, inertia, "value", "radius_of_gyration", "each gives the other: I = m k^2"))

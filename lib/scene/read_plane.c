@@ -56,7 +56,7 @@ static bool has_normal(struct reader *reader, const struct constraint *constrain
                       "write `normal: 5 N`; or `plane: horizontal` at the top of the file, for its weight");
     return !body->mass.expr ||
            refuse(reader, constraint->at, "missing-key", "the weight of a body of varying mass varies",
-                  "write `normal`, an expression of t");
+                  "add `normal`, an expression of t");
 }
 
 /* The points of a body that shares its weight among them. Each is a constraint of its own. */
@@ -83,6 +83,20 @@ static bool read_points(struct reader *reader, const struct node *points, struct
     return true;
 }
 
+/* A list of names or lists is no pair of coordinates, but several points. */
+static bool is_one_point(struct reader *reader, const struct constraint *constraint, const struct node *at)
+{
+    const struct body *body = &reader->scene->bodies[constraint->body[0]];
+    struct point named;
+    for (size_t i = 0; at->kind == node_list && i < at->count; i++) {
+        const struct node *item = at->items[i];
+        if (item->kind == node_scalar && !names_point(body, item->text, item->length, &named)) continue;
+        return refuse(reader, item->at, "not-here", "`at` is one point, the name of one or [x, y]",
+                      "write two or three of them under `points`");
+    }
+    return true;
+}
+
 bool plane_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
 {
     constraint->end_count = 2;
@@ -106,5 +120,6 @@ bool plane_read(struct reader *reader, const struct coupling_keys *keys, struct 
         !has_normal(reader, constraint))
         return false;
     if (keys->points) return read_points(reader, keys->points, constraint);
+    if (keys->at && !is_one_point(reader, constraint, keys->at)) return false;
     return !keys->at || body_point_read(reader, constraint->body[0], keys->at, "at", &constraint->point[0]);
 }

@@ -151,6 +151,7 @@ struct absolute {
         absolute_ay,
         absolute_alpha,    /* angular acceleration */
         absolute_inertia,  /* moment of inertia about a point of the body */
+        absolute_section,  /* in derivations: N, V, M (`part`) at the distance point.where.x from the end */
         absolute_work,     /* of a force during a run */
         absolute_impulse,  /* of a force during a run */
         absolute_reaction, /* in events: of a constraint, a spring or damper, or the joint of the body */
@@ -160,8 +161,9 @@ struct absolute {
     const char *force; /* of absolute_reaction: name of the spring or damper; or NULL */
     const struct force_sum *sum; /* of a declared symbol, whose key is then `force` */
     int roll; /* absolute_slip of a rolling body, absolute_reaction: 1 + index of its constraint; else 0 */
-    bool angular; /* absolute_slip of a bearing */
-    bool moves;   /* named by an equation of motion or an event; else only by derivations */
+    bool angular;  /* absolute_slip of a bearing */
+    struct pos at; /* of absolute_section */
+    bool moves;    /* named by an equation of motion or an event; else only by derivations */
 };
 
 /* The force of a pivot in an event. */

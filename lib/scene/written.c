@@ -60,6 +60,12 @@ static bool enter_sense(void *context, const char *word)
     return more->scope->sense(more->scope->context, word);
 }
 
+static struct symbol look_up_at(void *context, const char *name, double x, struct pos at)
+{
+    const struct names_and_more *more = context;
+    return more->scope->at_length(more->scope->context, name, x, at);
+}
+
 static bool read_with_more(struct reader *reader, const struct node *node, const struct scope *scope,
                            bool equation, fbd_errors *errors, struct notation *notation)
 {
@@ -68,6 +74,7 @@ static bool read_with_more(struct reader *reader, const struct node *node, const
     const struct scope wider = {.lookup = look_up,
                                 .table = look_up_table,
                                 .sense = enter_sense,
+                                .at_length = look_up_at,
                                 .context = &more,
                                 .units = scope->units};
     if (!notation_read(reader->exprs, node->text, node->text_at, &wider, equation, errors, notation))

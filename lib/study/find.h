@@ -100,6 +100,12 @@ static inline bool find_is_equation(const struct fbd_find *find)
     return find->kind == find_equation || find->kind == find_limit;
 }
 
+/* Are its trials rows of a sweep? */
+static inline bool find_runs(const struct fbd_find *find)
+{
+    return !find->plan->statics || find->kind == find_equation;
+}
+
 /* Find the solutions between two trials of the scan. Returns false as find_try. */
 bool find_solve(struct fbd_find *find, const struct trial *a, const struct trial *b);
 

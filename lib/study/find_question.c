@@ -107,16 +107,19 @@ static bool take_range(struct fbd_find *find, const fbd_model *model)
 bool find_complete_question(struct fbd_find *find)
 {
     const fbd_find_plan *plan = find->plan;
-    fbd_errors *again = plan->statics ? find->errors : NULL; /* rows give the notes of the file themselves */
+    const bool none = !find->condition[0], equation = strchr(find->condition, '=') != NULL;
+    fbd_errors *again =
+        plan->statics && !equation ? find->errors : NULL; /* rows give the notes of the file */
     fbd_model *model = fbd_model_parse(find->source, find->source_length, find->name, plan->settings,
                                        plan->setting_count, again);
-    bool fine = !model ? !plan->statics : take_range(find, model);
+    bool fine = !model ? !again : take_range(find, model);
     fbd_model_free(model);
-    const bool none = !find->condition[0], equation = strchr(find->condition, '=') != NULL;
-    if (plan->statics)
+    if (equation)
+        find->kind = find_equation;
+    else if (plan->statics)
         find->kind = none ? find_equilibrium : find_limit;
     else
-        find->kind = none ? find_happenings : equation ? find_equation : find_event;
+        find->kind = none ? find_happenings : find_event;
     if (find->kind == find_limit) find->limit = find->condition;
     if (fine && find->kind == find_event) fine = (find->event = event_of(find)) != NULL;
     if (!fine || find->kind != find_equation) return fine;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * One value of the parameter: a row of a sweep, or the statics of the scene at its start.
+ * One value of the parameter: a row of a sweep (of an equation with --static a row at rest), or the statics of the scene
+ * at its start.
  */
 #include <math.h>
 #include <string.h>
@@ -73,6 +74,7 @@ static bool prepare_runs(struct fbd_find *find)
     find->value = find->from;
     if (!prepare_rows(find, &find->normal, parameter, find->errors)) return false;
     if (find->formula && !row_formula_compile(find->formula, find->normal.rows, find->errors)) return false;
+    if (find->plan->statics && !rows_rest(find->normal.rows, find->errors)) return false;
     if (!rows_try(find->normal.rows, 0, find->errors)) return false;
     size_t count = 0;
     outputs_of(find, &count);
@@ -95,7 +97,9 @@ static bool keep_texts(struct fbd_find *find, struct trial *trial, const char *s
 static bool try_run(struct fbd_find *find, bool tight, struct trial *trial)
 {
     struct row_look *look = &find->look;
-    enum row_end end = row_look(tight ? find->tight.maker : find->normal.maker, find->runs, look);
+    enum row_end end = find->plan->statics
+                           ? row_look_at_rest(find->normal.maker, find->runs, look)
+                           : row_look(tight ? find->tight.maker : find->normal.maker, find->runs, look);
     if (look->row.failed || look->story.failed || end == row_stopped) return false;
     trial->status = look->status;
     trial->reason = look->reason;
@@ -204,7 +208,7 @@ static bool try_statics(struct fbd_find *find, struct trial *trial)
 
 bool find_prepare_trials(struct fbd_find *find)
 {
-    return find->plan->statics || prepare_runs(find);
+    return !find_runs(find) || prepare_runs(find);
 }
 
 static void free_rows(struct find_rows *of)
@@ -236,7 +240,7 @@ bool find_try(struct fbd_find *find, double p, bool tight, struct trial *trial)
     *trial = (struct trial){.p = p, .f = NAN, .outcome = "", .story = "", .status = "", .reason = ""};
     find->value = p;
     find->runs++;
-    bool made = find->plan->statics ? try_statics(find, trial) : try_run(find, tight, trial);
+    bool made = find_runs(find) ? try_run(find, tight, trial) : try_statics(find, trial);
     if (made && trial->failed && !tight) find->failed++;
     return made && !find->arena.failed && goes_on(find);
 }

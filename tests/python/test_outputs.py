@@ -76,3 +76,12 @@ def test_a_beam_is_cut():
         section.at(3)
     with pytest.raises(fbd.Error):
         section.at("nowhere")
+
+
+def test_section_forces_are_outputs_and_quantities():
+    model = fbd.Model(MODELS / "statics/beam.yaml")
+    table = model.sweep("P=100:300 N:2", "M(beam, load),V(beam, load, behind)")
+    np.testing.assert_allclose(table["M(beam load)"], [148.575, 298.575], rtol=1e-12)
+    assert table.units["V(beam load behind)"] == "N"
+    found = model.find("P = 0..2000 N: M(beam, L/2) = 500 N*m", statics=True)
+    assert found[0].value == pytest.approx(803.8, abs=1e-8)

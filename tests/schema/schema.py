@@ -53,6 +53,7 @@ BEYOND = {
     "plane_of_the_ground.yaml": "a word where names of bodies stand",
     "plane_on_a_particle.yaml": "how the body moves",
     "plane_with_open_weight.yaml": "two places of the file",
+    "plane_at_list_of_names.yaml": "which words are names of points",
     "plane_points_names.yaml": "names",
     "plane_under_a_load.yaml": "two places of the file",
     "plane_on_each_other.yaml": "two places of the file",

@@ -57,6 +57,8 @@ static bool has_derivation(const char *path)
 {
     if (strcmp(path, "contact/conveyor_belt.yaml") == 0) return true; /* of its slip, with `when` */
     if (strcmp(path, "statics/loaded_beam.yaml") == 0) return true;   /* of the force of its link */
+    if (strcmp(path, "statics/beam.yaml") == 0) return true;          /* of its section forces */
+    if (strcmp(path, "statics/cantilever.yaml") == 0) return true;
     return !is_static(path) && strncmp(path, "contact/", 8) != 0 &&
            strcmp(path, "couplings/andrews_squeezer.yaml") != 0 &&
            strcmp(path, "trees/chain_of_ten_rods.yaml") != 0;

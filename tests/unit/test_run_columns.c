@@ -90,21 +90,40 @@ static void check_page(struct tested *tested)
     fbd_free(data);
 }
 
+static void check_head(const char *text, const char *output, const struct run_column *column)
+{
+    char head[300];
+    const fbd_sweep_plan plan = {.outputs = &output, .output_count = 1};
+    fbd_sweep *sweep = fbd_sweep_parse(text, strlen(text), NULL, &plan, NULL);
+    assert_non_null(sweep);
+    snprintf(head, sizeof head, ",%s [%s],", column->name, column->unit);
+    assert_non_null(strstr(fbd_sweep_header(sweep), head));
+    fbd_sweep_free(sweep);
+}
+
 static void check_sweep(struct tested *tested, const char *text)
 {
     make(tested, column_in_sweep);
-    for (size_t i = 0; i < tested->columns.count; i++) {
-        const struct run_column *column = &tested->columns.list[i];
-        char head[300];
-        fbd_sweep *sweep = fbd_sweep_parse(text, strlen(text), NULL,
-                                           &(fbd_sweep_plan){.outputs = (const char *const[]){column->name},
-                                                             .output_count = 1},
-                                           NULL);
-        assert_non_null(sweep);
-        snprintf(head, sizeof head, ",%s [%s],", column->name, column->unit);
-        assert_non_null(strstr(fbd_sweep_header(sweep), head));
-        fbd_sweep_free(sweep);
+    for (size_t i = 0; i < tested->columns.count; i++)
+        check_head(text, tested->columns.list[i].name, &tested->columns.list[i]);
+}
+
+/* It is in no list, and a sweep finds it by its name. */
+static void check_section(struct tested *tested, const char *text)
+{
+    static const char *const names[] = {"N(rod, 1.5 m)", "V(rod, left)", "M(rod, 0.5 m, behind)"};
+    struct arena arena = {0};
+    tested->model = model_from(text);
+    fbd_errors *errors = fbd_errors_new();
+    for (int i = 0; i < 3; i++) {
+        struct run_column column;
+        assert_true(run_column_of_section(tested->model, &arena, names[i], &column, errors));
+        check_head(text, names[i], &column);
+        tested->seen[column.kind] = true;
     }
+    fbd_errors_free(errors);
+    arena_free(&arena);
+    fbd_model_free(tested->model);
 }
 
 static void check_scene(struct tested *tested, const char *text)
@@ -131,6 +150,7 @@ static void each_column_is_in_its_outputs(void **unused)
     struct tested tested = {0};
     for (size_t i = 0; i < all_scenes_count; i++) check_scene(&tested, all_scenes[i].text);
     check_scene(&tested, rare);
+    check_section(&tested, rare);
     for (int kind = 0; kind < column_kinds; kind++) {
         if (!tested.seen[kind]) print_message("column kind %d is in no scene\n", kind);
         assert_true(tested.seen[kind]);

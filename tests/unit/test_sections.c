@@ -15,7 +15,7 @@
 #include "fbd_section.h"
 #include "random_numbers.h"
 #include "run_checks.h"
-#include "study/polynomial.h"
+#include "section/polynomial.h"
 
 static const double digits = 1e-10;
 

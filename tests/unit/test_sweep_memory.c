@@ -40,6 +40,13 @@ static const char pendulum[] = "fbd: 1\n"
                                "forces: [gravity]}\n"
                                "simulate: {until: 3 s}\n";
 
+static const char rod[] =
+    "fbd: 1\n"
+    "parameters: {L: 1 m}\n"
+    "bodies:\n"
+    "  b: {shape: rod, mass: 1, length: L, motion: {pivot: {point: left}}, forces: [gravity]}\n"
+    "simulate: {until: 0.1 s}\n";
+
 enum { most_bytes = 2000 };
 
 struct table {
@@ -115,6 +122,7 @@ static void no_allocation_that_fails_makes_a_wrong_row(void **state)
     (void)state;
     fail_each(text, "mu=0.1,0.3", "final,times,energy,max(x)");
     fail_each(pendulum, "theta0=0.1:3:9", "final,steps");
+    fail_each(rod, "L=1,2", "max(M(b, L/3)),V(right)");
 }
 
 static void memory_does_not_grow_with_the_number_of_runs(void **state)

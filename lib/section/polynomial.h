@@ -2,8 +2,8 @@
  *
  * Polynomials on -1 <= t <= 1 by their coefficients, of low degree.
  */
-#ifndef FBD_STUDY_POLYNOMIAL_H
-#define FBD_STUDY_POLYNOMIAL_H
+#ifndef FBD_SECTION_POLYNOMIAL_H
+#define FBD_SECTION_POLYNOMIAL_H
 
 #include <stdbool.h>
 

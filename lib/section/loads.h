@@ -3,11 +3,12 @@
  * The loads on a straight body in the axes of its axis: those at one place, and those along stretches of it, its weight
  * and inertia among them.
  */
-#ifndef FBD_STUDY_SECTION_LOADS_H
-#define FBD_STUDY_SECTION_LOADS_H
+#ifndef FBD_SECTION_LOADS_H
+#define FBD_SECTION_LOADS_H
 
 #include "base/diag.h"
-#include "study/section.h"
+#include "dynamics/diagram.h"
+#include "section/section.h"
 
 /* A part of the body along its axis. */
 struct section_bar {
@@ -17,21 +18,20 @@ struct section_bar {
 
 /* A distributed load; its line from `start` to `end`, in the axes of the axis. */
 struct section_spread {
-    size_t force; /* in the diagram */
-    double length;
+    const struct spread *line;
     struct vec start, end, resultant;
 };
 
-/* The work of fbd_section_new. */
+/* The work of section_new. */
 struct section_work {
     fbd_section *section;
-    fbd_state *state;
-    const fbd_statics *statics;
+    const struct fbd_state *state; /* evaluated */
     fbd_errors *errors;
-    size_t body;
-    fbd_body seen;
-    size_t force_count, bar_count, spread_count, place_count;
-    fbd_listed_force *forces;
+    const struct model_body *body;
+    struct instant at;
+    struct pose pose;
+    size_t arrow_count, bar_count, spread_count, place_count;
+    struct arrow *arrows; /* the diagram of the body */
     struct section_bar *bars;
     struct section_spread *spreads;
     double *places; /* where loads act, begin or end */

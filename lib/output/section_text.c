@@ -7,7 +7,8 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "study/section.h"
+#include "output/words.h"
+#include "section/name.h"
 
 enum { digits = 9, tenths = 10 };
 
@@ -61,6 +62,11 @@ static void each_row(struct text *text, const fbd_section *section, const double
 
 /* ---- the text */
 
+static const char *unit_of(const fbd_section *section, int force)
+{
+    return force == section_M ? moment_unit(section->model) : force_unit(section->model);
+}
+
 static void write_number(struct text *text, double value)
 {
     text_add(text, value < 0 ? "" : " ");
@@ -94,9 +100,9 @@ static void text_row(struct text *text, const fbd_section *section, fbd_cut cut,
 
 static void write_head(struct text *text, const fbd_section *section)
 {
-    const fbd_units units = fbd_model_units(section->model);
-    text_heading(text, fbd_model_title(section->model));
-    text_printf(text, "Section forces of `%s` at t = ", section->body);
+    const char *length = length_unit(section->model);
+    text_heading(text, section->model->scene->title);
+    text_printf(text, "Section forces of `%s` at t = ", section->body->name);
     text_number(text, section->t, digits);
     text_printf(text, " s%s\n", section->at_rest ? ", at rest" : "");
     text_add(text, "  x from ");
@@ -105,20 +111,20 @@ static void write_head(struct text *text, const fbd_section *section)
     if (section->end) text_printf(text, "`%s` ", section->end);
     text_add(text, "(");
     text_number(text, section->length, digits);
-    text_printf(text, " %s); N > 0: tension; V > 0: turns a part clockwise; M > 0: sagging\n", units.length);
+    text_printf(text, " %s); N > 0: tension; V > 0: turns a part clockwise; M > 0: sagging\n", length);
     if (section->lump_count > 0)
         text_add(text, "  parts that are not straight count as concentrated at their centres\n");
-    text_printf(text, "\n  x [%s]", units.length);
+    text_printf(text, "\n  x [%s]", length);
     for (int k = 0; k < section_forces; k++) {
         text_pad(text, 17 + 18 * (size_t)k);
-        text_printf(text, "%s [%s]", section_symbols[k], section_unit(section, (enum section_force)k));
+        text_printf(text, "%s [%s]", section_symbols[k], unit_of(section, k));
     }
     text_add(text, "\n");
 }
 
 static void write_extremes(struct text *text, const fbd_section *section)
 {
-    const char *length = fbd_model_units(section->model).length;
+    const char *length = length_unit(section->model);
     text_add(text, "\n");
     for (int k = 0; k < section_forces; k++)
         for (int greatest = 1; greatest >= 0; greatest--) {
@@ -126,7 +132,7 @@ static void write_extremes(struct text *text, const fbd_section *section)
             text_printf(text, "  %s %s", greatest ? "greatest" : "least", section_symbols[k]);
             text_pad(text, 16);
             write_number(text, extreme.value);
-            text_printf(text, " %s", section_unit(section, (enum section_force)k));
+            text_printf(text, " %s", unit_of(section, k));
             text_pad(text, 40);
             text_add(text, "at x = ");
             text_number(text, extreme.x, digits);
@@ -190,18 +196,18 @@ char *fbd_section_json(const fbd_section *section, const double *x)
 {
     if (!section) return NULL;
     struct text text = {0};
-    const fbd_units units = fbd_model_units(section->model);
+    const struct fbd_model *model = section->model;
     text_add(&text, "{");
-    text_json_words(&text, "body", section->body, ",");
+    text_json_words(&text, "body", section->body->name, ",");
     text_json_member(&text, "t", section->t, ",");
     text_json_flag(&text, "at_rest", section->at_rest, ",");
     text_json_member(&text, "length", section->length, ",");
     text_json_key(&text, "units");
     text_add(&text, "{");
-    text_json_words(&text, "x", units.length, ",");
-    text_json_words(&text, "N", units.force, ",");
-    text_json_words(&text, "V", units.force, ",");
-    text_json_words(&text, "M", units.moment, "},");
+    text_json_words(&text, "x", length_unit(model), ",");
+    text_json_words(&text, "N", force_unit(model), ",");
+    text_json_words(&text, "V", force_unit(model), ",");
+    text_json_words(&text, "M", moment_unit(model), "},");
     text_json_key(&text, "sections");
     text_add(&text, "[");
     each_row(&text, section, x, json_row);

@@ -18,19 +18,16 @@
  *
  * Beyond the other end N, V and M are zero: the test of each result.
  */
-#ifndef FBD_STUDY_SECTION_H
-#define FBD_STUDY_SECTION_H
+#ifndef FBD_SECTION_SECTION_H
+#define FBD_SECTION_SECTION_H
 
 #include "base/arena.h"
 #include "base/vec.h"
+#include "dynamics/state.h"
 #include "fbd_section.h"
-#include "fbd_view.h"
-#include "study/polynomial.h"
+#include "section/polynomial.h"
 
 enum section_force { section_N, section_V, section_M, section_forces };
-
-/* The symbols and their meaning in words. */
-extern const char *const section_symbols[section_forces], *const section_words[section_forces];
 
 /* A force or couple at one place of the axis; `jump` are the steps of N, V and M there. */
 struct section_load {
@@ -49,11 +46,12 @@ struct section_piece {
 struct fbd_section {
     struct arena arena;
     const fbd_model *model; /* its texts */
-    const char *body, *start, *end;
+    const struct model_body *body;
+    const char *start, *end; /* the names of its ends, or NULL */
     bool at_rest;
     double t, length;
     struct vec origin, e; /* of the axis, in the frame of the body */
-    size_t load_count, piece_count, lump_count;
+    size_t load_count, piece_count, piece_room, lump_count;
     struct section_load *loads;
     struct section_piece *pieces;
     const char **lumps;          /* parts that count as concentrated at their centres */
@@ -61,10 +59,18 @@ struct fbd_section {
     fbd_section_extreme extremes[section_forces][2];
 };
 
+/* The section forces of a body at an evaluated state, in its modes; `at_rest`: without inertia, as of the state of
+ * statics. Extremes and the names of the ends are left out (fbd_section_new has them). NULL with a note: `no-section`,
+ * `no-balance`, or memory is out. */
+fbd_section *section_new(const struct fbd_state *state, bool at_rest, int body, fbd_errors *errors);
+
+/* An end of a piece where x is one but for rounding. */
+double section_snap(const fbd_section *section, double x);
+
+/* One of them at x, where it jumps before x or `behind` it; at the ends of the body within it. NAN outside. */
+double section_force_at(const fbd_section *section, enum section_force force, double x, bool behind);
+
 /* A value at round-off level is 0. */
 double section_rounded(const fbd_section *section, enum section_force force, double value);
-
-/* The unit of a section force. */
-const char *section_unit(const fbd_section *section, enum section_force force);
 
 #endif

@@ -2,8 +2,9 @@
  *
  * Public interface: how distributed loads are distributed.
  */
+#include "section/spread.h"
+
 #include <math.h>
-#include <stdlib.h>
 
 #include "expr/pieces.h"
 #include "fbd_section.h"
@@ -23,10 +24,8 @@ fbd_spread fbd_model_spread(const fbd_model *model, size_t body, size_t force)
     return (fbd_spread){{spread->from.x, spread->from.y}, {spread->to.x, spread->to.y}, spread->length};
 }
 
-double fbd_model_spread_density(const fbd_model *model, size_t body, size_t force, double s)
+double spread_density(const struct spread *spread, double s)
 {
-    const struct spread *spread = spread_at(model, body, force);
-    if (!spread) return NAN;
     if (spread->force == 0) return 0;
     const double share = s / spread->length;
     const double w = spread->w ? expr_eval(spread->w, 0, &s, NULL)
@@ -34,15 +33,26 @@ double fbd_model_spread_density(const fbd_model *model, size_t body, size_t forc
     return w / spread->force;
 }
 
+double fbd_model_spread_density(const fbd_model *model, size_t body, size_t force, double s)
+{
+    const struct spread *spread = spread_at(model, body, force);
+    return spread ? spread_density(spread, s) : NAN;
+}
+
+size_t spread_ends(const struct spread *spread, double ends[spread_most_ends])
+{
+    ends[0] = 0;
+    ends[1] = spread->length;
+    if (!spread->w) return 2;
+    const int pieces = pieces_cut(&spread->w, 1, 1, 0, spread->length, spread_most_ends - 1, ends);
+    return pieces > 0 ? (size_t)pieces + 1 : 0;
+}
+
 size_t fbd_model_spread_ends(const fbd_model *model, size_t body, size_t force, double *ends, size_t room)
 {
-    enum { most_pieces = 1000 };
     const struct spread *spread = spread_at(model, body, force);
-    double *cut = spread ? calloc(most_pieces + 1, sizeof *cut) : NULL;
-    if (!cut) return 0;
-    int pieces = spread->w ? pieces_cut(&spread->w, 1, 1, 0, spread->length, most_pieces, cut) : 1;
-    if (!spread->w) cut[1] = spread->length;
-    for (int i = 0; ends && i <= pieces && (size_t)i < room; i++) ends[i] = cut[i];
-    free(cut);
-    return pieces > 0 ? (size_t)pieces + 1 : 0;
+    double all[spread_most_ends];
+    const size_t count = spread ? spread_ends(spread, all) : 0;
+    for (size_t i = 0; ends && i < count && i < room; i++) ends[i] = all[i];
+    return count;
 }

@@ -4,12 +4,12 @@
  */
 #include <math.h>
 
-#include "study/section_loads.h"
+#include "model/outline.h"
+#include "section/loads.h"
 
-static bool refuse(struct section_work *work, const char *hint, const char *format, const char *name)
+static bool refuse(struct section_work *work, const char *hint, const char *format)
 {
-    diag_add(work->errors, FBD_ERROR, "no-section", (struct pos){work->seen.line, work->seen.column}, hint,
-             format, name);
+    diag_add(work->errors, FBD_ERROR, "no-section", work->body->source->at, hint, format, work->body->name);
     return false;
 }
 
@@ -18,12 +18,11 @@ struct middle {
     struct vec from, to;
 };
 
-static bool find_middle(const fbd_shape *shape, struct middle *middle)
+static bool find_middle(const struct outline_part *shape, struct middle *middle)
 {
-    const struct vec a = vec_of(shape->corners[0]), b = vec_of(shape->corners[1]);
-    if (shape->kind == FBD_SHAPE_BAR) *middle = (struct middle){a, b};
-    if (shape->kind != FBD_SHAPE_POLYGON) return shape->kind == FBD_SHAPE_BAR;
-    const struct vec c = vec_of(shape->corners[2]), d = vec_of(shape->corners[3]);
+    const struct vec a = shape->corner[0], b = shape->corner[1], c = shape->corner[2], d = shape->corner[3];
+    if (shape->kind == outline_bar) *middle = (struct middle){a, b};
+    if (shape->kind != outline_polygon) return shape->kind == outline_bar;
     const bool first = vec_norm(vec_sub(b, a)) >= vec_norm(vec_sub(c, b));
     *middle = first ? (struct middle){vec_scale(0.5, vec_add(a, d)), vec_scale(0.5, vec_add(b, c))}
                     : (struct middle){vec_scale(0.5, vec_add(a, b)), vec_scale(0.5, vec_add(d, c))};
@@ -33,19 +32,20 @@ static bool find_middle(const fbd_shape *shape, struct middle *middle)
     return true;
 }
 
-static bool choose_axis(struct section_work *work, const fbd_model *model)
+static bool choose_axis(struct section_work *work)
 {
     fbd_section *section = work->section;
+    const struct body *source = work->body->source;
     double longest = 0;
     struct middle axis = {{0, 0}, {0, 0}}, middle;
-    for (size_t i = 0; i < fbd_model_shape_count(model, work->body); i++) {
-        const fbd_shape shape = fbd_model_shape(model, work->body, i);
+    for (size_t i = 0; i < source->part_count; i++) {
+        const struct outline_part shape = outline_of_part(&source->parts[i]);
         if (shape.hole)
             return refuse(work, "leave the hole out, or give its section a body of its own",
-                          "`%s` has a hole, whose sections are not those of a rod", section->body);
-        if (shape.kind == FBD_SHAPE_UNKNOWN)
+                          "`%s` has a hole, whose sections are not those of a rod");
+        if (shape.kind == outline_unknown)
             return refuse(work, "give it `shape: rod` or `shape: prism` in place of `inertia`",
-                          "`%s` has a moment of inertia, but no distribution of its mass", section->body);
+                          "`%s` has a moment of inertia, but no distribution of its mass");
         if (!find_middle(&shape, &middle)) continue;
         const double length = vec_norm(vec_sub(middle.to, middle.from));
         if (!(length > longest * (1 + 1e-9))) continue;
@@ -53,8 +53,9 @@ static bool choose_axis(struct section_work *work, const fbd_model *model)
         axis = middle;
     }
     if (!(longest > 0))
-        return refuse(work, "`--cut` wants a body with `shape: rod` or `shape: prism`, or such a part",
-                      "`%s` has no part that is long and straight", section->body);
+        return refuse(work,
+                      "sections are those of a body with `shape: rod` or `shape: prism`, or such a part",
+                      "`%s` has no part that is long and straight");
     section->origin = axis.from;
     section->e = vec_scale(1 / longest, vec_sub(axis.to, axis.from));
     section->length = longest;
@@ -68,21 +69,21 @@ static struct vec in_axis(const fbd_section *section, struct vec point)
     return (struct vec){vec_dot(r, section->e), vec_cross(section->e, r)};
 }
 
-/* Add the part to the bars; false when it does not lie on the axis. */
-static bool add_bar(struct section_work *work, const fbd_shape *shape, const fbd_inertia *inertia,
-                    double factor)
+/* Add the part to the bars, if it is one; false when it does not lie on the axis. */
+static bool add_bar(struct section_work *work, const struct part *part)
 {
     const fbd_section *section = work->section;
+    const struct outline_part shape = outline_of_part(part);
+    const struct inertia inertia = inertia_of_parts(part, 1, work->body->pin);
     struct middle middle;
-    find_middle(shape, &middle);
+    if (!find_middle(&shape, &middle)) return true;
     const struct vec a = in_axis(section, middle.from), b = in_axis(section, middle.to);
     const double length = vec_norm(vec_sub(b, a)), near = 1e-9 * section->length;
     if (fabs(a.y) > near || fabs(b.y) > near) return false;
-    const double slender = inertia->mass * length * length / 12;
-    const double excess = shape->kind == FBD_SHAPE_BAR ? 0 : inertia->I_G - slender;
+    const double slender = inertia.mass * length * length / 12;
+    const double excess = shape.kind == outline_bar ? 0 : inertia.I_G - slender;
     work->bars[work->bar_count++] =
-        (struct section_bar){fmin(a.x, b.x), fmax(a.x, b.x), factor * inertia->mass / length,
-                             factor * excess / length};
+        (struct section_bar){fmin(a.x, b.x), fmax(a.x, b.x), inertia.mass / length, excess / length};
     return true;
 }
 
@@ -105,24 +106,15 @@ static void extend_axis(struct section_work *work)
 
 bool section_find_axis(struct section_work *work)
 {
-    const fbd_model *model = work->section->model;
-    const size_t count = fbd_model_shape_count(model, work->body);
-    if (!choose_axis(work, model)) return false;
-    work->bars = ARENA_ARRAY(&work->section->arena, count + 1, struct section_bar);
-    fbd_view *view = work->bars ? fbd_view_new(work->state, work->errors) : NULL;
-    if (!view) return false;
-    const double stated = fbd_model_inertia(model, work->body).mass;
-    const double factor = stated == 0 ? 0 : fbd_view_mass(view, work->body).mass / stated;
-    fbd_view_free(view);
-    for (size_t i = 0; i < count; i++) {
-        const fbd_shape shape = fbd_model_shape(model, work->body, i);
-        const fbd_inertia inertia = fbd_model_shape_inertia(model, work->body, i);
-        const bool bar = shape.kind == FBD_SHAPE_BAR || shape.kind == FBD_SHAPE_POLYGON;
-        if (bar && !add_bar(work, &shape, &inertia, factor))
+    const struct body *source = work->body->source;
+    if (!choose_axis(work)) return false;
+    work->bars = ARENA_ARRAY(&work->section->arena, source->part_count + 1, struct section_bar);
+    if (!work->bars) return false;
+    for (size_t i = 0; i < source->part_count; i++)
+        if (!add_bar(work, &source->parts[i]))
             return refuse(work,
                           "make each straight part a body, and weld them: a weld shows N, V and M there",
-                          "the parts of `%s` do not lie on one straight line", work->section->body);
-    }
+                          "the parts of `%s` do not lie on one straight line");
     extend_axis(work);
     return true;
 }

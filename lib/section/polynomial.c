@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/polynomial.h"
+#include "section/polynomial.h"
 
 #include <math.h>
 
