@@ -50,7 +50,7 @@ static struct look look_at(const char *path)
     struct stat status;
     if (stat(path, &status) != 0) return (struct look){.found = false};
 #ifdef __APPLE__
-    long nanoseconds = status.st_mtimensec;
+    long nanoseconds = status.st_mtimespec.tv_nsec;
 #else
     long nanoseconds = status.st_mtim.tv_nsec;
 #endif

@@ -65,9 +65,9 @@ static bool derive(const fbd_state *state, const size_t *variables, size_t count
                    fbd_errors *errors)
 {
     size_t size = 2 * state->model->scene->coordinate_count;
-    if (scene_has_calls(state->model->scene) || scene_holds_inputs(state->model->scene)) {
+    if (scene_has_calls(state->model->scene)) {
         diag_add(errors, FBD_ERROR, "no-derivatives", (struct pos){0, 0}, NULL,
-                 "a model with an input by a callback, or one that is set between steps, has no derivatives");
+                 "a model with an input by a callback has no derivatives");
         return false;
     }
     if (!has_derivatives(state->model)) {

@@ -87,7 +87,8 @@ bool input_slopes(const fbd_state *state, const struct fbd_model *by, size_t inp
     bool fine = false;
     if (there) {
         fbd_state_pack(state, numbers, count);
-        numbers[0] = state->model->scene->parameters[input].value;
+        const struct parameter *parameter = &state->model->scene->parameters[input];
+        numbers[0] = parameter->call.held ? state->held[input] : parameter->value;
         fine = fbd_state_unpack(there, numbers, count) && state_slopes(there, dfdy, dfdu);
     }
     state_free(there);

@@ -156,11 +156,11 @@ static bool refuse_input(const struct building *building, const char *name)
     return false;
 }
 
-static bool refuse_varying(const struct building *building, const char *name, bool held)
+static bool refuse_called(const struct building *building, const char *name)
 {
     diag_add(building->errors, FBD_ERROR, "no-derivatives", (struct pos){0, 0},
-             "linearize the model in which it is a constant", "the input `%s` is %s", name,
-             held ? "set between steps" : "computed by a callback");
+             "linearize the model in which it is a constant", "the input `%s` is computed by a callback",
+             name);
     return false;
 }
 
@@ -178,9 +178,8 @@ static bool make_column(const struct building *building, size_t column, double *
 {
     const struct fbd_linearization *linear = building->system->linear;
     const size_t wide = plan_size(&building->model->plan), input = building->inputs[column];
-    const struct input_call *call = &linear->model->scene->parameters[input].call;
-    if (input_varies(call))
-        return refuse_varying(building, building->system->inputs[column].name, call->held);
+    if (linear->model->scene->parameters[input].call.function)
+        return refuse_called(building, building->system->inputs[column].name);
     struct fbd_model *by = model_by_input(linear->state, input);
     if (!by) return false;
     bool meant = !equilibrium_refuse_reels(by, NULL);

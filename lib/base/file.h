@@ -14,6 +14,11 @@ char *file_text(const char *path, size_t *length, fbd_errors *errors);
 /* A copy of a text owned by the caller; NULL with a note when memory is out. */
 char *file_copy(const char *text, size_t length, fbd_errors *errors);
 
+/* Does the path lead from the root, wherever the program stands? Windows has another rule. */
+#ifndef PATH_IS_ABSOLUTE
+#define PATH_IS_ABSOLUTE(path) ((path)[0] == '/')
+#endif
+
 /* The name of a file in messages. */
 const char *file_name(const char *path);
 

@@ -92,7 +92,8 @@ bool enclosure_has_weights(const struct fbd_state *state)
         const struct kink *kink = &model->plan.kinks[s->slides[j].kink];
         const int *slots;
         size_t count = expr_variables(kink->formula.expr, &slots);
-        if (expr_switch_degree(kink->formula.expr, (size_t)s->slides[j].part, 2 * n) != expr_affine)
+        if (expr_switch_degree(kink->formula.expr, (size_t)s->slides[j].part, 2 * n, model->constant_slots) !=
+            expr_affine)
             return false;
         for (size_t k = 0; k < count; k++) {
             if (slots[k] > 2 * n) return false; /* user states and positions */

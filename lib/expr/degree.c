@@ -46,9 +46,15 @@ static enum expr_degree degree_after(const struct instr *instr, enum expr_degree
     }
 }
 
-/* Set the degrees of time and variables; slots beyond `last` count as nonlinear. Returns true if the program
- * has jumps: then a register may be written by either side of an `if`. */
-static bool begin(const struct expr *expr, enum expr_degree of_time, int last,
+static enum expr_degree degree_of_slot(int slot, int last, const bool *constant)
+{
+    if (constant && constant[slot]) return expr_constant_between;
+    return slot <= last ? expr_affine : expr_nonlinear;
+}
+
+/* Set the degrees of time and variables. Returns true if the program has jumps: then a register may be written by either
+ * side of an `if`. */
+static bool begin(const struct expr *expr, enum expr_degree of_time, int last, const bool *constant,
                   enum expr_degree degree[frame_limit])
 {
     size_t first = expr->uses_time;
@@ -56,7 +62,7 @@ static bool begin(const struct expr *expr, enum expr_degree of_time, int last,
     memset(degree, 0, frame_limit * sizeof *degree);
     if (expr->uses_time) degree[0] = of_time;
     for (size_t i = 0; i < expr->variables; i++)
-        degree[first + i] = expr->slots[i] <= last ? expr_affine : expr_nonlinear;
+        degree[first + i] = degree_of_slot(expr->slots[i], last, constant);
     for (size_t i = 0; i < expr->operations; i++)
         jumps |= expr->code[i].op == op_jump || expr->code[i].op == op_jump_unless;
     return jumps;
@@ -69,11 +75,11 @@ static void take(const struct instr *instr, bool jumps, enum expr_degree *degree
     degree[instr->to] = jumps ? larger(degree[instr->to], result) : result;
 }
 
-enum expr_degree expr_degree(const struct expr *expr)
+enum expr_degree expr_degree(const struct expr *expr, int last, const bool *constant)
 {
     enum expr_degree degree[frame_limit];
     if (expr_is_constant(expr)) return expr_constant_between;
-    bool jumps = begin(expr, expr_nonlinear, INT_MAX, degree);
+    bool jumps = begin(expr, expr_nonlinear, last, constant, degree);
     for (size_t i = 0; i < expr->operations; i++) {
         const struct instr *instr = &expr->code[i];
         if (instr->op != op_jump && instr->op != op_jump_unless) take(instr, jumps, degree);
@@ -102,10 +108,10 @@ static enum expr_degree switching_degree(const struct instr *instr, const enum e
 }
 
 static enum expr_degree switch_degree(const struct expr *expr, size_t index, enum expr_degree of_time,
-                                      int last)
+                                      int last, const bool *constant)
 {
     enum expr_degree degree[frame_limit], worst = expr_constant_between;
-    bool jumps = begin(expr, of_time, last, degree);
+    bool jumps = begin(expr, of_time, last, constant, degree);
     for (size_t i = 0; i < expr->operations; i++) {
         const struct instr *instr = &expr->code[i];
         if (instr->op == op_jump || instr->op == op_jump_unless) continue;
@@ -116,12 +122,12 @@ static enum expr_degree switch_degree(const struct expr *expr, size_t index, enu
     return worst;
 }
 
-enum expr_degree expr_switch_degree(const struct expr *expr, size_t index, int last)
+enum expr_degree expr_switch_degree(const struct expr *expr, size_t index, int last, const bool *constant)
 {
-    return switch_degree(expr, index, expr_nonlinear, last);
+    return switch_degree(expr, index, expr_nonlinear, last, constant);
 }
 
 bool expr_switch_is_affine_in_time(const struct expr *expr, size_t index)
 {
-    return switch_degree(expr, index, expr_affine, 0) != expr_nonlinear;
+    return switch_degree(expr, index, expr_affine, 0, NULL) != expr_nonlinear;
 }

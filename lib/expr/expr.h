@@ -163,7 +163,8 @@ enum expr_degree {
     expr_nonlinear,        /* any other, or not shown to be simpler */
 };
 
-enum expr_degree expr_degree(const struct expr *expr);
+/* Slots beyond `last` count as nonlinear; those of `constant`, by slot, as constant, unless it is NULL. */
+enum expr_degree expr_degree(const struct expr *expr, int last, const bool *constant);
 
 /* The same expression over another vector: slot k becomes moved[k]; the order of the slots must not change.
  * Shares all else with `expr`. NULL when memory is out. */
@@ -233,8 +234,8 @@ void expr_switchings(const struct expr *expr, double t, const double *y, double 
  * for abs, min and max. */
 bool expr_switch_jumps(const struct expr *expr, size_t index);
 
-/* The degree of the switching function of one switch; slots beyond `last` count as not affine. */
-enum expr_degree expr_switch_degree(const struct expr *expr, size_t index, int last);
+/* The degree of the switching function of one switch, likewise. */
+enum expr_degree expr_switch_degree(const struct expr *expr, size_t index, int last, const bool *constant);
 
 /* True if the switching function is a + b t with constants a and b while the branches of all switches last. */
 bool expr_switch_is_affine_in_time(const struct expr *expr, size_t index);

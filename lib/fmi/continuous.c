@@ -71,9 +71,7 @@ static bool make_motion(struct continuous *continuous, fbd_errors *errors)
 {
     struct plant *plant = continuous->plant;
     const fbd_options options = plant_options(plant);
-    fbd_model *file = plant_model(plant, errors);
-    if (file) continuous->model = extra_model(file, errors);
-    fbd_model_free(file);
+    continuous->model = plant_model(plant, plant->values, true, errors);
     if (continuous->model) continuous->state = fbd_state_new(continuous->model);
     if (!continuous->state) return false;
     fbd_state_set(continuous->state, "t", plant->start);

@@ -103,6 +103,9 @@ static void add_licenses(struct zip *zip)
     zip_add(zip, "documentation/licenses/gpl-3.0.txt", (const char *)license_of_gpl, license_of_gpl_length);
     zip_add(zip, "documentation/licenses/libyaml.txt", (const char *)license_of_libyaml,
             license_of_libyaml_length);
+    if (license_of_threads_length > 0)
+        zip_add(zip, "documentation/licenses/winpthreads.txt", (const char *)license_of_threads,
+                license_of_threads_length);
 }
 
 static void add_text(struct zip *zip, const char *name, struct text *text)
@@ -114,11 +117,20 @@ static void add_text(struct zip *zip, const char *name, struct text *text)
     text_free(text);
 }
 
+/* The name that FMI 2.0 has for this platform; NULL if it has none. */
+static const char *platform_2(void)
+{
+    static const char *const names[][2] = {{"x86_64-linux", "linux64"}, {"x86_64-windows", "win64"}};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcmp(names[i][0], FBD_FMI_PLATFORM) == 0) return names[i][1];
+    return NULL;
+}
+
 static void add_binary(struct zip *zip, const struct package *package)
 {
     struct text name = {0};
-    const char *place = package->options->version == 2 ? "linux64" : FBD_FMI_PLATFORM;
-    text_printf(&name, "binaries/%s/%s.so", place, package->name);
+    const char *place = package->options->version == 2 ? platform_2() : FBD_FMI_PLATFORM;
+    text_printf(&name, "binaries/%s/%s%s", place, package->name, FBD_FMI_SUFFIX);
     if (!name.failed)
         zip_add_gzip(zip, name.data, package->options->library, package->options->library_length);
     zip->failed |= name.failed;
@@ -179,7 +191,7 @@ static bool options_fit(const fbd_fmu_options *options, fbd_errors *errors)
     if (options->version != 2 && options->version != 3)
         return refuse(errors, "3, or 2 for tools without support of 3.0",
                       "there is no such version of FMI here");
-    if (options->version == 2 && strcmp(FBD_FMI_PLATFORM, "x86_64-linux") != 0)
+    if (options->version == 2 && !platform_2())
         return refuse(errors, "FMI 3.0 does", "FMI 2.0 has no name for this platform");
     if (options->run->error_bars || options->run->accuracy != 0)
         return refuse(errors, "ask for a tolerance",

@@ -69,8 +69,9 @@ void package_describe(const struct package *package, struct text *xml);
 void package_describe_2(const struct package *package, struct text *xml);
 
 /* Texts of licences (licenses.c, made by lib/embed). */
-extern const unsigned char license_of_gpl[], license_of_libyaml[];
-extern const size_t license_of_gpl_length, license_of_libyaml_length;
+extern const unsigned char license_of_gpl[], license_of_libyaml[], license_of_threads[];
+extern const size_t license_of_gpl_length, license_of_libyaml_length,
+    license_of_threads_length; /* 0: a part of the system, and not of the binary */
 
 /* ---- common to both versions */
 

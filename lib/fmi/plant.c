@@ -35,50 +35,33 @@ static bool fail_by(struct plant *plant, fbd_errors *errors)
 
 /* ---- models */
 
-static bool is_own(const struct plant *plant, size_t index)
+static bool has_inputs(const struct plant *plant)
 {
-    const fbd_parameter parameter = fbd_model_parameter(plant->first, index);
-    return !parameter.derived && plant->values[index] != parameter.value;
+    for (size_t i = 0; i < plant->parameter_count; i++)
+        if (fbd_model_parameter(plant->first, i).input) return true;
+    return false;
 }
 
-/* The settings of the FMU, then the changed values. */
-static fbd_setting *list_settings(const struct plant *plant, struct arena *arena, size_t *count)
+/* Is there a model for the base? */
+static bool has_model(const struct plant *plant, bool holds_inputs)
 {
-    size_t most = plant->settings.count + plant->parameter_count;
-    fbd_setting *list = ARENA_ARRAY(arena, most + 1, fbd_setting);
-    if (!list) return NULL;
-    for (*count = 0; *count < plant->settings.count; ++*count) list[*count] = plant->settings.list[*count];
-    for (size_t i = 0; i < plant->parameter_count; i++) {
-        char number[40];
-        if (!is_own(plant, i)) continue;
-        format_shortest(number, sizeof number, plant->values[i]);
-        const char *text = arena_text(arena, number, strlen(number));
-        if (!text) return NULL;
-        list[(*count)++] = (fbd_setting){fbd_model_parameter(plant->first, i).name, text};
+    for (size_t i = 0; plant->model && i < plant->parameter_count; i++) {
+        const fbd_parameter parameter = fbd_model_parameter(plant->model, i);
+        const bool varies = parameter.derived || (parameter.input && holds_inputs);
+        if (!varies && parameter.value != plant->base.values[i]) return false;
     }
-    return list;
+    return plant->model && plant->holds_inputs == holds_inputs;
 }
 
-fbd_model *plant_model(const struct plant *plant, fbd_errors *errors)
-{
-    struct arena arena = {0};
-    size_t count;
-    const fbd_setting *settings = list_settings(plant, &arena, &count);
-    fbd_model *model = NULL;
-    if (settings)
-        model = fbd_model_parse(plant->text, plant->length, plant->path, settings, count, errors);
-    else
-        diag_out_of_memory(errors);
-    arena_free(&arena);
-    return model;
-}
-
-/* Compile the model with the present values. */
 static bool make_model(struct plant *plant)
 {
+    const bool holds_inputs = !plant->base.of_file && has_inputs(plant);
+    if (has_model(plant, holds_inputs)) return true;
     fbd_errors *errors = fbd_errors_new();
     if (!errors) return no_memory(plant);
-    plant->model = plant_model(plant, errors);
+    fbd_model_free(plant->model);
+    plant->model = plant_model(plant, plant->base.values, holds_inputs, errors);
+    plant->holds_inputs = holds_inputs;
     if (!plant->model) fail_by(plant, errors);
     fbd_errors_free(errors);
     return plant->model != NULL;
@@ -117,24 +100,23 @@ struct plant *plant_open(const char *resources, fbd_errors *errors)
     return NULL;
 }
 
-/* Free model, simulation and state. */
+/* Free simulation and state. */
 static void drop_run(struct plant *plant)
 {
     fbd_state_free(plant->state);
     fbd_force_columns_free(plant->columns);
     fbd_simulation_free(plant->simulation);
-    fbd_model_free(plant->model);
     plant->state = NULL;
     plant->columns = NULL;
     plant->is_shown = plant->is_pulled = false;
     plant->simulation = NULL;
-    plant->model = NULL;
 }
 
 void plant_close(struct plant *plant)
 {
     if (!plant) return;
     drop_run(plant);
+    fbd_model_free(plant->model);
     extras_free(&plant->extras);
     fbd_model_free(plant->first);
     package_settings_free(&plant->settings);
@@ -204,21 +186,25 @@ void plant_begin(struct plant *plant, double start, double stop, double toleranc
                                                           : start + length);
 }
 
-/* A state of the model with the numbers of the base. */
+/* A state of the model with the numbers of the base, and its inputs if the model holds them. */
 static fbd_state *state_of_base(struct plant *plant)
 {
+    const struct plant_base *base = &plant->base;
     fbd_state *state = fbd_state_new(plant->model);
-    bool fine = state != NULL;
-    if (fine && plant->base.of_file) {
+    if (!state) {
+        no_memory(plant);
+        return NULL;
+    }
+    if (base->of_file) {
         fbd_state_set(state, "t", plant->start);
-    } else if (fine && !fbd_state_unpack(state, plant->base.numbers, plant->base.number_count)) {
-        fail(plant,
-             "with these inputs the model has another memory: an input that switches `hysteresis`, or a "
-             "coupling, on and off cannot be changed");
+    } else if (!fbd_state_unpack(state, base->numbers, base->number_count)) {
+        fail(plant, "an input that switches `hysteresis`, or a coupling, on and off cannot be changed");
         fbd_state_free(state);
         return NULL;
     }
-    if (!fine) no_memory(plant);
+    for (size_t i = 0; plant->holds_inputs && i < plant->parameter_count; i++)
+        if (fbd_model_parameter(plant->first, i).input)
+            fbd_state_set(state, fbd_model_parameter(plant->first, i).name, base->values[i]);
     return state;
 }
 
@@ -286,17 +272,27 @@ static bool values_differ(const struct plant *plant)
     return false;
 }
 
+/* The numbers of the present state as those of a model that holds its inputs, which come last. */
+static bool take_numbers(struct plant *plant)
+{
+    const size_t packed = fbd_state_pack(plant->state, NULL, 0);
+    double *numbers = realloc(plant->base.numbers, (packed + plant->parameter_count + 1) * sizeof *numbers);
+    if (!numbers) return no_memory(plant);
+    fbd_state_pack(plant->state, numbers, packed);
+    plant->base.numbers = numbers;
+    plant->base.number_count = packed;
+    for (size_t i = 0; !plant->holds_inputs && i < plant->parameter_count; i++)
+        if (fbd_model_parameter(plant->first, i).input)
+            numbers[plant->base.number_count++] = plant->base.values[i];
+    return true;
+}
+
 /* Make the present state the base. */
 static bool take_state(struct plant *plant, double until)
 {
     if (plant->extras.works && !plant_pull(plant)) return false;
     for (size_t i = 0; i < plant_work_count(plant); i++) plant->base.works[i] = plant->pulls[i];
-    size_t count = fbd_state_pack(plant->state, NULL, 0);
-    double *numbers = realloc(plant->base.numbers, (count + 1) * sizeof *numbers);
-    if (!numbers) return no_memory(plant);
-    fbd_state_pack(plant->state, numbers, count);
-    plant->base.numbers = numbers;
-    plant->base.number_count = count;
+    if (!take_numbers(plant)) return false;
     plant->base.of_file = false;
     plant->base.until = until;
     return true;
@@ -304,27 +300,12 @@ static bool take_state(struct plant *plant, double until)
 
 bool plant_update(struct plant *plant)
 {
-    bool differ = values_differ(plant), fresh = plant->simulation != NULL;
-    bool started = plant->running && !(plant->base.of_file && plant->t == plant->start);
-    if (fresh && !differ) return true;
-    if (!started) {
-        take_values(plant);
-        return make_run(plant);
-    }
+    const bool differ = values_differ(plant);
+    const bool started = plant->running && !(plant->base.of_file && plant->t == plant->start);
     /* The state must first be reached with the previous values. */
-    if (!fresh) {
-        double *wanted = malloc((plant->parameter_count + 1) * sizeof *wanted);
-        size_t size = plant->parameter_count * sizeof *wanted;
-        if (!wanted) return no_memory(plant);
-        memcpy(wanted, plant->values, size);
-        memcpy(plant->values, plant->base.values, size);
-        bool made = make_run(plant);
-        memcpy(plant->values, wanted, size);
-        free(wanted);
-        if (!made) return false;
-    }
-    if (!differ) return true;
-    if (!take_state(plant, plant->base.until)) return false;
+    if (started && !plant->simulation && !make_run(plant)) return false;
+    if (plant->simulation && !differ) return true;
+    if (started && !take_state(plant, plant->base.until)) return false;
     take_values(plant);
     return make_run(plant);
 }

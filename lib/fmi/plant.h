@@ -2,9 +2,9 @@
  *
  * Plant: the motion of an instance of an FMU, independent of the version of the standard.
  *
- * Inputs are constant between communication points, so they are constants of the model. When one changes, the
- * file is read again with its new value, and a new simulation starts from the present state. So everything
- * that depends on the input (lists of terms, switches, methods) is updated.
+ * Inputs are constant between communication points. Until one changes they are constants of the model, as in fbd-run. At the
+ * first change a model is compiled whose states hold them; it serves all further changes, at each of which a new simulation
+ * starts from the present state.
  *
  * A simulation takes the steps of fbd-run, beyond the communication point, and is interpolated there. So it
  * does not depend on the communication points. The saved state of a plant is the start of its simulation and
@@ -49,7 +49,8 @@ struct plant {
     double t;
     double tolerance; /* requested; 0 if not given */
     struct plant_base base;
-    fbd_model *model; /* with the values of the base; NULL if not compiled yet */
+    fbd_model *model;  /* with the parameters of the base; NULL if not compiled yet */
+    bool holds_inputs; /* its inputs belong to states; else they are constants, those of the base */
     fbd_simulation *simulation;
     fbd_state *state;           /* at t */
     fbd_force_columns *columns; /* of the model; NULL: not needed yet */
@@ -84,9 +85,13 @@ void plant_begin(struct plant *plant, double start, double stop, double toleranc
 /* Make model, simulation and state consistent with t and the present values. Returns false with a reason. */
 bool plant_update(struct plant *plant);
 
-/* The options of a run with these settings; and a model with the present values, NULL with notes in `errors`. */
+/* The options of a run with these settings. */
 fbd_options plant_options(const struct plant *plant);
-fbd_model *plant_model(const struct plant *plant, fbd_errors *errors);
+
+/* A model with these values of parameters and inputs, and states that hold inputs or not; NULL with notes in `errors`
+ * (plant_files.c). */
+fbd_model *plant_model(const struct plant *plant, const double *values, bool holds_inputs,
+                       fbd_errors *errors);
 
 /* Is the variable a parameter or an input, whose value is set? */
 bool plant_is_given(const struct plant *plant, size_t index);

@@ -119,12 +119,28 @@ static void enclose_moving(void *context, size_t group, const struct stretch *st
                      out);
 }
 
-/* The state along the last step with the world positions used by expressions. */
+/* A component behind the state that does not vary within a run: an input that is set between steps. */
+static bool is_input(const struct run *run, size_t component)
+{
+    return slot_is_constant(run->model, (int)component + 1);
+}
+
+static double input_of(const struct run *run, size_t component)
+{
+    const size_t index = component - plan_size(&run->model->plan) - hand_slots;
+    return run->during->held[run->model->absolutes[index].coordinate];
+}
+
+/* The state along the last step with the inputs and world positions used by expressions. */
 static int sample_course(void *context, double t, double *y)
 {
     struct run *run = context;
     const struct fbd_state *during = run->during;
     if (sample_state(run, t, y)) return -1;
+    for (size_t k = 0; k < run->trajectory.count; k++) {
+        const size_t component = (size_t)run->trajectory.component[k];
+        if (is_input(run, component)) y[component] = input_of(run, component);
+    }
     if (!run->search.follows_places) return 0;
     struct instant at = state_instant_at(during, t, y);
     at = instant_extend(run->model, &at);
@@ -179,12 +195,17 @@ static void set_noise(struct run *run)
 static int powers_of(void *context, double from, double to, int component, double *c)
 {
     const struct run *run = context;
+    if (is_input(run, (size_t)component)) {
+        c[0] = input_of(run, (size_t)component);
+        return 0;
+    }
     return switcher_powers(run->stepper, time_dd_at(from), time_dd_at(to), (size_t)component, c);
 }
 
 static int powers_of_ends(void *context, double from, double to, int component, double *c)
 {
     const struct run *run = context;
+    if (is_input(run, (size_t)component)) return powers_of(context, from, to, component, c);
     return switcher_powers_of_ends(run->stepper, time_dd_at(from), time_dd_at(to), (size_t)component, c);
 }
 
@@ -407,7 +428,8 @@ static bool make_course(struct run *run)
     if (!used) return false;
     watchers_mark_used(run->model, &run->watchers.moving, used);
     mark_paced(run, used);
-    for (size_t i = plan_size(&run->model->plan); i < size; i++) run->search.follows_places |= used[i];
+    for (size_t i = plan_size(&run->model->plan); i < size; i++)
+        run->search.follows_places |= used[i] && !is_input(run, i);
     return trajectory_init(&run->trajectory, size, used, run->memory) && mark_reads(run, used, size);
 }
 

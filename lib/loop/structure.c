@@ -50,6 +50,7 @@ static bool is_rate(const struct fbd_model *model, int slot)
 {
     int n = model->plan.n, size = (int)plan_size(&model->plan);
     if (slot <= size) return slot > n && slot <= 2 * n;
+    if (slot_is_constant(model, slot)) return false;
     enum absolute_kind kind = model->absolutes[slot - 1 - size - hand_slots].kind;
     return kind != absolute_x && kind != absolute_y && kind != absolute_angle;
 }
@@ -115,11 +116,8 @@ static enum expr_degree worse(enum expr_degree a, enum expr_degree b)
 /* The degree of an expression. World positions are no coordinates, and need not be linear in them. */
 static enum expr_degree degree_of(const struct fbd_model *model, const struct value *value)
 {
-    const int *slots;
-    size_t count = value->expr ? expr_variables(value->expr, &slots) : 0;
-    enum expr_degree degree = value->expr ? expr_degree(value->expr) : expr_constant_between;
-    bool places = count > 0 && slots[count - 1] > 2 * model->plan.n;
-    return places && degree != expr_constant_between ? expr_nonlinear : degree;
+    return value->expr ? expr_degree(value->expr, 2 * model->plan.n, model->constant_slots)
+                       : expr_constant_between;
 }
 
 /* An applied force, by its components along the body's coordinates. Its moment about the frame's origin or
@@ -247,7 +245,8 @@ static enum expr_degree slides_vary(const struct fbd_model *model)
         for (size_t part = 0; kink->slides && part < kink->count; part++) {
             /* On a switch that depends on positions the accelerations vary as the forces do. */
             if (!expr_switch_jumps(expr, part) || kink_watches_places(kink, (int)part)) continue;
-            worst = worse(worst, worse(expr_affine, expr_switch_degree(expr, part, 2 * model->plan.n)));
+            worst = worse(worst, worse(expr_affine, expr_switch_degree(expr, part, 2 * model->plan.n,
+                                                                       model->constant_slots)));
         }
     }
     return worst;

@@ -74,6 +74,9 @@ bool plan_build(struct builder *builder);
 /* Decide for each load whether a potential energy exists, with the reason. */
 bool classify_loads(struct builder *builder);
 
+/* Set model->constant_slots. False when memory is out. */
+bool slots_find_constant(struct fbd_model *model);
+
 /* The data of tracks beyond their links (track.c): false when memory is out. */
 bool tracks_set(struct builder *builder);
 void track_set_body(const struct scene *scene, struct model_body *body);

@@ -8,6 +8,18 @@
  */
 #include "model/builder.h"
 
+bool slots_find_constant(struct fbd_model *model)
+{
+    const struct scene *scene = model->scene;
+    const size_t first = 1 + scene_size(scene) + hand_slots;
+    if (!scene_holds_inputs(scene)) return true;
+    bool *constant = model->constant_slots = ARENA_ARRAY(&model->arena, first + model->absolute_count, bool);
+    for (size_t k = 0; constant && k < model->absolute_count; k++)
+        constant[first + k] = model->absolutes[k].kind == absolute_input &&
+                              scene->parameters[model->absolutes[k].coordinate].call.held;
+    return constant != NULL;
+}
+
 unsigned formula_slot_depends(const struct model_body *body, int slot)
 {
     int index = slot - 1;
@@ -144,6 +156,20 @@ static struct verdict judge(const struct model_body *body, const struct model_lo
     }
 }
 
+/* In all models of a file, also where the input is a constant: works go on past its changes. */
+static struct verdict judge_by_inputs(const struct model_body *body, const struct model_load *load)
+{
+    struct verdict verdict = judge(body, load);
+    struct load source = *load->source;
+    struct value *formulas[most_formulas_of_a_load];
+    load_formulas(&source, formulas);
+    for (size_t k = 0; verdict.kind > potential_workless && k < most_formulas_of_a_load; k++)
+        if (formulas[k]->by_input)
+            verdict =
+                (struct verdict){potential_none, "counted as work: an input may change during the motion"};
+    return verdict;
+}
+
 /* The coordinate where V = 0: 0, or the start where the force is not finite at 0. `origin` is a state of
  * zeros. */
 static double reference_of(const struct fbd_model *model, const struct model_load *load, const double *origin)
@@ -162,7 +188,7 @@ bool classify_loads(struct builder *builder)
     if (!origin) return false;
     for (size_t i = 0; i < model->load_count; i++) {
         struct model_load *load = &model->loads[i];
-        struct verdict verdict = judge(&model->bodies[load->body], load);
+        struct verdict verdict = judge_by_inputs(&model->bodies[load->body], load);
         load->potential_kind = verdict.kind;
         load->why = verdict.why;
         if (verdict.kind == potential_workless && i >= model->coupled_count) /* of a circle that rolls */

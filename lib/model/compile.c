@@ -397,7 +397,8 @@ static void set_watches(struct builder *builder)
     const struct scene *scene = model->scene;
     for (size_t i = 0; i < scene->event_count; i++) {
         const struct user_event *event = &scene->events[i];
-        struct value left = {event->left, event->at}, right = {event->right, event->at};
+        struct value left = {.expr = event->left, .at = event->at},
+                     right = {.expr = event->right, .at = event->at};
         struct watch *watch = &model->plan.watches[model->plan.watch_count++];
         watch->source = event;
         watch->left = builder_formula(builder, &left, -1, -1);
@@ -438,9 +439,10 @@ static struct fbd_model *compile(struct scene *scene, bool labels, const struct 
         set_loads(&builder);
         set_couplings(&builder);
         done = set_labels(model, labels, like) && set_named_couplings(&builder) && set_drives(&builder) &&
-               set_carried(&builder) && set_absolutes(model) && set_output_points(model) &&
-               tree_number(model) && tracks_set(&builder) && tree_name_reactions(model) &&
-               arrows_name(model) && plan_build(&builder) && classify_loads(&builder);
+               set_carried(&builder) && set_absolutes(model) && slots_find_constant(model) &&
+               set_output_points(model) && tree_number(model) && tracks_set(&builder) &&
+               tree_name_reactions(model) && arrows_name(model) && plan_build(&builder) &&
+               classify_loads(&builder);
         if (done) check_massless(&builder);
         set_rates(&builder);
         set_watches(&builder);

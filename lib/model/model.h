@@ -130,6 +130,7 @@ struct fbd_model {
     const struct own_label *own_labels; /* of the user states */
     size_t absolute_count;
     struct model_absolute *absolutes;
+    bool *constant_slots;      /* by slot: an input that is set between steps; NULL without those */
     bool names_places;         /* world positions are used, not only in hand derivations; */
     bool names_poses;          /* others than the speeds at which bodies slip, and reactions */
     bool names_reactions;      /* events name reactions */
@@ -138,6 +139,11 @@ struct fbd_model {
     struct tree *tree;
     bool assembles; /* some start positions follow from couplings */
 };
+
+static inline bool slot_is_constant(const struct fbd_model *model, int slot)
+{
+    return model->constant_slots && model->constant_slots[slot];
+}
 
 /* Compile a scene; the model takes ownership of the scene, also on failure. NULL with notes in `errors`, for
  * example for impossible masses and inertias (`bad-inertia`). */

@@ -34,7 +34,7 @@ static bool reads_velocity(const struct fbd_model *model, const struct expr *exp
     for (size_t i = 0; i < count; i++) {
         if (slots[i] <= n) continue;
         if (slots[i] <= 2 * n) return true;
-        if (slots[i] <= size) continue;
+        if (slots[i] <= size || slot_is_constant(model, slots[i])) continue;
         enum absolute_kind kind = model->scene->absolutes[slots[i] - 1 - size - hand_slots].kind;
         if (kind != absolute_x && kind != absolute_y && kind != absolute_angle) return true;
     }
@@ -48,7 +48,8 @@ static unsigned watch_places(const struct fbd_model *model, const struct kink *k
     const struct expr *expr = kink->formula.expr;
     unsigned places = 0;
     for (size_t part = 0; part < kink->count && part < most_bits; part++)
-        if (expr_switch_jumps(expr, part) && expr_switch_degree(expr, part, model->plan.n) == expr_affine)
+        if (expr_switch_jumps(expr, part) &&
+            expr_switch_degree(expr, part, model->plan.n, model->constant_slots) == expr_affine)
             places |= 1u << part;
     return places;
 }

@@ -29,7 +29,7 @@ static bool set_piece(struct builder *builder, struct model_body *body, struct t
     if (!link->track->curve->ends) return true;
     const struct expr *expr =
         expr_compile(&builder->model->arena, "piece(s)", body->source->at, &scope, &want, builder->errors);
-    struct value value = {expr, body->source->at};
+    struct value value = {.expr = expr, .at = body->source->at};
     if (expr) link->track->piece = builder_formula(builder, &value, (int)(body - builder->model->bodies), -1);
     return expr != NULL;
 }

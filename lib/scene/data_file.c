@@ -435,7 +435,8 @@ static bool is_plain_file(const char *path, struct pos at, fbd_errors *errors)
     bool missing = stat(path, &info) != 0;
     if (!missing && S_ISREG(info.st_mode)) return true;
     diag_add(errors, FBD_ERROR, "cannot-read", at,
-             missing && at.line && path[0] != '/' ? "the path starts where the model file lies" : NULL,
+             missing && at.line && !PATH_IS_ABSOLUTE(path) ? "the path starts where the model file lies"
+                                                           : NULL,
              "cannot read `%s`: %s", path, missing ? strerror(errno) : "it is no plain file");
     return false;
 }

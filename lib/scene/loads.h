@@ -18,6 +18,7 @@ enum { most_coordinates_of_a_body = 3 };
 struct value {
     const struct expr *expr;
     struct pos at;
+    bool by_input; /* it names an input */
 };
 
 /* A point of a body (in its frame) or of the ground. */

@@ -182,7 +182,7 @@ static struct symbol constant_symbol(struct names *names, size_t index, struct p
     struct reader *reader = names->reader;
     struct symbol symbol = reader->definition_readers->parameter(reader, index, at);
     bool input = reader->scene->parameters[index].input;
-    if (input) reader->names_inputs = true;
+    if (input) reader->names_input = true;
     bool is_time = reader->time && strcmp(reader->time->name, reader->scene->parameters[index].name) == 0;
     bool varies = input && (names->place == place_constant || is_time);
     bool outside =

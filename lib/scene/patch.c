@@ -4,6 +4,7 @@
 #include "scene/record.h"
 #include "scene/values.h"
 
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -170,7 +171,7 @@ static bool same_kind(const struct expr *a, const struct expr *b)
     return expr_variables(b, &slots_b) == count &&
            (count == 0 || memcmp(slots_a, slots_b, count * sizeof *slots_a) == 0) &&
            expr_uses_time(a) == expr_uses_time(b) && expr_switches(a) == expr_switches(b) &&
-           expr_poles(a) == expr_poles(b) && expr_degree(a) == expr_degree(b);
+           expr_poles(a) == expr_poles(b) && expr_degree(a, INT_MAX, NULL) == expr_degree(b, INT_MAX, NULL);
 }
 
 /* The parameter that an expression consists of, followed through definitions that consist of another

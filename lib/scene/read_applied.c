@@ -62,7 +62,8 @@ static bool read_applied_value(struct entry *entry)
 static bool fill_component(struct entry *entry, const char *key, struct value *value)
 {
     if (value->expr || entry_has(entry, key)) return value->expr != NULL;
-    *value = (struct value){expr_constant(entry->reader->arena, 0, DIM_FORCE), entry->chosen.at};
+    *value =
+        (struct value){.expr = expr_constant(entry->reader->arena, 0, DIM_FORCE), .at = entry->chosen.at};
     return value->expr != NULL;
 }
 

@@ -180,6 +180,7 @@ bool distributed_finish(struct entry *entry)
                                           : take_integrals(entry, value, length, &force, &arm, &size);
     if (!taken || !check_direction(entry) || !place(entry, from, to, force, arm, size)) return false;
     if (entry_has(entry, "factor")) return derive_scaled(entry, force);
-    load->value = (struct value){expr_constant(entry->reader->arena, force, DIM_FORCE), value->at};
+    load->value =
+        (struct value){.expr = expr_constant(entry->reader->arena, force, DIM_FORCE), .at = value->at};
     return load->value.expr != NULL;
 }

@@ -59,13 +59,8 @@ bool body_mass_read(struct reader *reader, int index)
     struct scope scope = names_scope(&names);
     if (!draft->mass_varies) return true;
     const struct node *node = node_find(draft->node, "mass")->value;
-    bool inputs = reader->names_inputs;
-    reader->names_inputs = false;
-    bool fine = value_formula(reader, node, "mass", a_mass, 0, &scope, &body->mass);
-    bool named = reader->names_inputs;
-    reader->names_inputs |= inputs;
-    if (!fine) return false;
-    if (named) {
+    if (!value_formula(reader, node, "mass", a_mass, 0, &scope, &body->mass)) return false;
+    if (body->mass.by_input) {
         diag_add(reader->errors, FBD_ERROR, "not-constant", node->at,
                  "make it a state whose rate is the input: `states: {fuel: {rate: -flow, initial: 2 kg}}`",
                  "a mass cannot depend on an input: how fast it changes would not be known");

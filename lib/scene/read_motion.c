@@ -94,7 +94,6 @@ bool body_prescribed_read(struct reader *reader, int index)
     struct names names = {.reader = reader, .place = place_load, .body = index};
     struct scope scope = names_scope(&names);
     const int *slots;
-    reader->names_inputs = false;
     if (!value_formula(reader, node, name, coordinate->angle ? an_angle : a_length, 0, &scope,
                        &body->motion.prescribed))
         return false;
@@ -105,7 +104,7 @@ bool body_prescribed_read(struct reader *reader, int index)
                  "a prescribed `%s` cannot depend on a motion", name);
         fine = false;
     }
-    if (reader->names_inputs) {
+    if (body->motion.prescribed.by_input) {
         diag_add(reader->errors, FBD_ERROR, "not-here", node->at, "let a force or a spring follow the input",
                  "a prescribed `%s` cannot name an input: the place would jump with it", name);
         fine = false;

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/number.h"
 #include "scene/data_file.h"
 #include "scene/fields.h"
@@ -108,7 +109,7 @@ static struct pos file_place(const struct node *map)
 static const char *resolve_path(struct reader *reader, const char *path, bool from_outside)
 {
     const char *model = reader->scene->file, *slash = model ? strrchr(model, '/') : NULL;
-    if (path[0] == '/') return path;
+    if (PATH_IS_ABSOLUTE(path)) return path;
     if (from_outside || !slash) return arena_printf(reader->arena, "./%s", path);
     return arena_printf(reader->arena, "%.*s/%s", (int)(slash - model), model, path);
 }

@@ -131,7 +131,7 @@ struct reader {
     bool names_varying;          /* the expression depends on a varying value; `varies` includes slots, too */
     bool varies;                 /* the expression being compiled is valid for this reading only */
     bool names_parameters;       /* the table or definition being read names a parameter or gravity */
-    bool names_inputs;           /* a compiled expression names an input */
+    bool names_input;            /* the expression that is compiled names an input */
     const struct override *time; /* of the input that replaces the time, or NULL */
 
     int inside; /* the body whose block is being read, or ground_body */

@@ -237,10 +237,11 @@ bool value_number(struct reader *reader, const struct node *node, const char *wh
 bool value_formula(struct reader *reader, const struct node *node, const char *what, enum quantity quantity,
                    unsigned flags, const struct scope *scope, struct value *value)
 {
+    reader->names_input = false;
     const struct expr *expr = compile(reader, node, what, quantity, flags, scope);
     if (!expr) return false;
     if (expr_is_constant(expr) && !check_range(reader, node, what, flags, expr_value(expr))) return false;
-    *value = (struct value){expr, node->at};
+    *value = (struct value){expr, node->at, reader->names_input};
     return true;
 }
 

@@ -90,7 +90,7 @@ static bool read_silently(struct reader *reader, const struct node *node, const 
 {
     fbd_errors *errors = reader->errors, *silent = fbd_errors_new();
     const size_t absolutes = reader->scene->absolute_count;
-    const bool varies = reader->varies, names_varying = reader->names_varying, inputs = reader->names_inputs;
+    const bool varies = reader->varies, names_varying = reader->names_varying, input = reader->names_input;
     bool fine = false;
     if (silent) {
         reader->errors = silent;
@@ -103,7 +103,7 @@ static bool read_silently(struct reader *reader, const struct node *node, const 
     reader->scene->absolute_count = absolutes;
     reader->varies = varies;
     reader->names_varying = names_varying;
-    reader->names_inputs = inputs;
+    reader->names_input = input;
     fbd_errors_free(silent);
     return fine;
 }

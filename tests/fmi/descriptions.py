@@ -280,10 +280,27 @@ def sources_on_request_are_whole():
         assert done.returncode == 1 and "already" in done.stderr
 
 
+def binaries_of_other_machines_are_added():
+    """Another FMU of the same model, as if made on another machine."""
+    tool = Path(os.environ["FBD_SOURCE_ROOT"]) / "packaging/fmu-binaries"
+    one, other, third = (make_fmu(place(scene), f"{FOLDER.name}/{name}.fmu")
+                         for name, scene in (("one", NAMED), ("other", NAMED), ("third", NAMED + "# changed\n")))
+    elsewhere = f"{FOLDER.name}/elsewhere.fmu"
+    with zipfile.ZipFile(other) as archive, zipfile.ZipFile(elsewhere, "w") as moved:
+        for name in archive.namelist():
+            moved.writestr(name.replace("-linux", "-plan9"), archive.read(name))
+    subprocess.run([tool, one, elsewhere], check=True)
+    fmu = Fmu(one, f"{FOLDER.name}/of_two")
+    assert len([name for name in fmu.names if name.startswith("binaries/")]) == 2 and len(set(fmu.names)) == len(fmu.names)
+    assert fmu.open().go_to(0.1)[0] == OK
+    done = subprocess.run([tool, one, third], stderr=subprocess.PIPE, check=False, text=True)
+    assert done.returncode == 1 and "another model" in done.stderr
+
+
 CLAIMS = [an_archive_has_its_files, the_binary_shows_the_functions_of_the_standard_and_needs_the_C_library,
           variables_are_those_of_the_model, units_have_their_dimension_and_size,
           the_structure_lists_what_the_standard_asks_for, forces_are_variables_and_outputs_where_they_are_chosen, tokens_tell_models_apart, settings_go_along,
-          an_FMU_is_moved_and_its_table_goes_along, sources_on_request_are_whole,
+          an_FMU_is_moved_and_its_table_goes_along, sources_on_request_are_whole, binaries_of_other_machines_are_added,
           what_makes_no_sense_is_refused]
 
 sys.exit(run_claims(CLAIMS))

@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "fbd_export.h"
+#include "fbd_linear.h"
 #include "fbd_study.h"
 #include "fbd_view.h"
 
@@ -81,8 +82,8 @@ static void set(fbd_simulation *simulation, double t, const char *name, double v
     fbd_errors_free(errors);
 }
 
-/* Of the default tolerance, 1e-9 in each step. */
-static const double close_to = 1e-8;
+/* Motions under constant and linear forces are exact up to rounding, as with the input as a constant. */
+static const double close_to = 1e-12;
 
 static void a_motor_is_switched(void **unused)
 {
@@ -229,6 +230,71 @@ static void a_block_breaks_away_and_stops(void **unused)
     fbd_model_free(model);
 }
 
+/* v = 2 t reaches the limit, and the next limit. */
+static void a_limit_is_an_input(void **unused)
+{
+    (void)unused;
+    fbd_model *model = settable(
+        "fbd: 1\ninputs: {F: 4 N, limit: 1 m/s}\nbodies:\n  block: {mass: 2 kg, motion: slide, forces: "
+        "[applied: {value: F}]}\nsimulate: {until: 3 s, events: [{name: fast, when: 'v = limit'}]}\n",
+        "F", "limit");
+    fbd_simulation *simulation = begun(model);
+    fbd_state *state = fbd_state_new(model);
+    near(at(simulation, state, 1, "block.v"), 2, close_to);
+    set(simulation, 1, "limit", 3);
+    near(at(simulation, state, 3, "block.v"), 6, close_to);
+    assert_int_equal(fbd_simulation_event_count(simulation), 2);
+    near(fbd_simulation_event(simulation, 0).t, 0.5, close_to);
+    near(fbd_simulation_event(simulation, 1).t, 1.5, close_to);
+    fbd_state_free(state);
+    fbd_simulation_free(simulation);
+    fbd_model_free(model);
+}
+
+/* m x'' = -K x: the derivatives are -K/m by x and -x/m by K. */
+static void derivatives_are_those_at_the_value_set(void **unused)
+{
+    (void)unused;
+    fbd_model *model =
+        settable("fbd: 1\ninputs: {K: 5 N/m}\nbodies:\n  block: {mass: 2 kg, motion: slide, forces: "
+                 "[applied: {value: -K*x}]}\nsimulate: {until: 3 s}\n",
+                 "K", NULL);
+    fbd_state *state = fbd_state_new(model);
+    size_t by[2] = {0};
+    double derivatives[2];
+    for (size_t i = 0; i < fbd_model_variable_count(model); i++) {
+        const fbd_variable variable = fbd_model_variable(model, i);
+        if (variable.kind == FBD_VARIABLE_COORDINATE) by[0] = i;
+        if (variable.kind == FBD_VARIABLE_INPUT) by[1] = i;
+    }
+    fbd_state_set(state, "K", 30);
+    fbd_state_set(state, "block.x", 0.4);
+    assert_true(fbd_state_derivatives(state, by, 2, derivatives, NULL));
+    near(derivatives[0], -15, close_to);
+    near(derivatives[1], -0.2, close_to);
+    fbd_state_free(state);
+    fbd_model_free(model);
+}
+
+/* x'' = (F + G)/m - (k/m) x at rest under 15 N. */
+static void a_linear_system_has_inputs_that_are_set(void **unused)
+{
+    (void)unused;
+    fbd_model *model = settable(SPRING, "F", NULL);
+    fbd_state *state = fbd_state_new(model);
+    fbd_state_set(state, "F", 15);
+    fbd_linearization *linear = fbd_linearize(state, NULL);
+    fbd_linear_system *system = fbd_linear_system_new(linear, NULL, NULL);
+    assert_int_equal(fbd_linear_system_input_count(system), 2);
+    const double *B = fbd_linear_system_input_matrix(system);
+    near(B[2], 0.5, close_to);
+    near(B[3], 0.5, close_to);
+    fbd_linear_system_free(system);
+    fbd_linearization_free(linear);
+    fbd_state_free(state);
+    fbd_model_free(model);
+}
+
 static void states_have_values_of_their_own(void **unused)
 {
     (void)unused;
@@ -312,6 +378,9 @@ int main(void)
         cmocka_unit_test(forces_of_two_inputs_are_switched),
         cmocka_unit_test(events_after_the_change_are_forgotten),
         cmocka_unit_test(a_block_breaks_away_and_stops),
+        cmocka_unit_test(a_limit_is_an_input),
+        cmocka_unit_test(derivatives_are_those_at_the_value_set),
+        cmocka_unit_test(a_linear_system_has_inputs_that_are_set),
         cmocka_unit_test(states_have_values_of_their_own),
         cmocka_unit_test(wrong_calls_are_refused),
     };

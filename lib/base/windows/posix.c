@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "posix.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <locale.h>
 #include <process.h>
@@ -40,16 +41,34 @@ static int failed(void)
     return -1;
 }
 
-static const char *native(const char *path)
+static bool has_drive(const char *path)
 {
-    return strcmp(path, "/dev/null") == 0 ? "NUL" : path;
+    return isalpha((unsigned char)path[0]) && path[1] == ':';
 }
 
+int posix_is_absolute(const char *path)
+{
+    return path[0] == '/' || path[0] == '\\' || has_drive(path);
+}
+
+/* `/C:/folder` is the path of a URI. */
+static const char *native(const char *path)
+{
+    return strcmp(path, "/dev/null") == 0 ? "NUL" : path + (path[0] == '/' && has_drive(path + 1));
+}
+
+/* A path in UTF-8 whatever the code page of the process, which may be the importer of an FMU. */
 static HANDLE handle_of(const char *path, DWORD rights, DWORD creation, DWORD flags)
 {
+    enum { longest = 2048 };
+    wchar_t name[longest];
     SECURITY_ATTRIBUTES kept = {.nLength = sizeof kept, .bInheritHandle = FALSE};
-    return CreateFileA(native(path), rights, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, &kept,
-                       creation, flags | FILE_FLAG_BACKUP_SEMANTICS, NULL); /* folders can be opened too */
+    if (!MultiByteToWideChar(CP_UTF8, 0, native(path), -1, name, longest)) {
+        SetLastError(ERROR_FILENAME_EXCED_RANGE);
+        return INVALID_HANDLE_VALUE;
+    }
+    return CreateFileW(name, rights, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, &kept, creation,
+                       flags | FILE_FLAG_BACKUP_SEMANTICS, NULL); /* folders can be opened too */
 }
 
 static mode_t mode_of(HANDLE file, const BY_HANDLE_FILE_INFORMATION *information)

@@ -7,6 +7,7 @@
 #pragma GCC system_header
 #ifndef FBD_BASE_WINDOWS_POSIX_H
 #define FBD_BASE_WINDOWS_POSIX_H
+#ifndef __ASSEMBLER__ /* assembly is preprocessed as well */
 
 /* Functions of io.h that POSIX has in unistd.h alone or not at all; our files have others of these names. */
 #define tell  io_tell
@@ -106,8 +107,10 @@ int sigpending(sigset_t *set);
 
 /* ---- child processes between descriptors; arguments have no blanks */
 
-#define PATH_SEPARATOR ";"
-#define environ        posix_environ
+#define PATH_SEPARATOR         ";"
+#define PATH_IS_ABSOLUTE(path) posix_is_absolute(path) /* from a drive, or from the root of the present one */
+int posix_is_absolute(const char *path);
+#define environ posix_environ
 extern char **posix_environ; /* NULL: a child has the environment of its parent */
 
 typedef struct {
@@ -149,4 +152,5 @@ ssize_t getline(char **line, size_t *room, FILE *stream);
 #define isnormal(value) __builtin_isnormal(value)
 #define signbit(value)  __builtin_signbit(value)
 
+#endif
 #endif
