@@ -124,6 +124,7 @@ static void write_coupling(struct text *text, const struct record *record, const
         write_slot(text, model, coupling);
     json_number_member(text, "length", coupling->reels ? 0 : state->zero);
     json_vector_member(text, "e", vec_unit(model->scene->constraints[coupling->constraint].along));
+    page_speed_write(text, &coupling->source->surface_speed);
     text_printf(text, "\"side\":%d,\"force\":%d}", state->side[0], force_column(record, coupling));
 }
 
@@ -133,6 +134,7 @@ static void write_surface(struct text *text, const struct constraint *source, in
     const struct polygon *polygon = source->contact.polygon;
     struct vec e = vec_unit(source->along);
     text_add(text, "{");
+    page_speed_write(text, &source->surface_speed);
     if (!polygon) {
         json_vector_member(text, "point", source->point[1].where);
         json_vector_member(text, "e", e);

@@ -39,11 +39,15 @@ function addRow(table, cells, css = "") {
   return row;
 }
 
-// A row with a time-dependent number: value(t, row).
+// A time-dependent number: value(t).
+function changingText(value, format = show) {
+  const text = document.createTextNode("");
+  changing.push([text, value, format]);
+  return text;
+}
+
 function addChanging(table, label, value, units, css) {
-  const row = addRow(table, [[label], ["", true], [units]], css);
-  changing.push([row.cells[1].appendChild(document.createTextNode("")), value]);
-  return row;
+  return addRow(table, [[label], [changingText(value), true], [units]], css);
 }
 
 // Give a term of an equation the colour of its arrow, and let it be found by that.
@@ -56,12 +60,12 @@ function markTerm(node, equation, name) {
 }
 
 function valueIn(index) {
-  return (t, row) => readAt(index, t, row);
+  return (t) => readAt(index, t);
 }
 
 // The sum of terms, zero at the round-off level of floats.
-function sumOf(terms, t, row) {
-  const values = terms.map(([, index]) => readAt(index, t, row));
+function sumOf(terms, t) {
+  const values = terms.map(([, index]) => readAt(index, t));
   const sum = values.reduce((a, b) => a + b, 0), largest = Math.max(0, ...values.map(Math.abs));
   return Math.abs(sum) < 5e-7 * largest ? 0 : sum;
 }
@@ -70,7 +74,7 @@ function sumOf(terms, t, row) {
 function inertiaIn(equation) {
   if (equation.mass === undefined) return () => equation.value;
   const mass = valueIn(equation.mass);
-  return (t, row) => equation.value * mass(t, row) / equation.massAtStart;
+  return (t) => equation.value * mass(t) / equation.massAtStart;
 }
 
 // The displayed terms: in symbols those with a symbol, else those that are nonzero at some time.
@@ -102,18 +106,13 @@ function inSymbols(equation) {
 // The equation with the numbers at the cursor's time.
 function inNumbers(equation) {
   const row = math("mrow");
-  const number = (value, format) => {
-    const text = document.createTextNode("");
-    changing.push([text, value, format]);
-    return math("mn", text);
-  };
+  const number = (value, format = (x) => show(x, 4)) => math("mn", changingText(value, format));
   const upright = (units) => math("mtext", `\u2009${unit(units)}`);
-  row.append(number(inertiaIn(equation), (value) => show(value, 4)), upright(equation.inertiaUnit), math("mo", "·"), math("mo", "("),
-    number(valueIn(equation.acceleration), (value) => show(value, 4)), upright(equation.accelerationUnit), math("mo", ")"), math("mo", "="));
+  row.append(number(inertiaIn(equation)), upright(equation.inertiaUnit), math("mo", "·"), math("mo", "("),
+    number(valueIn(equation.acceleration)), upright(equation.accelerationUnit), math("mo", ")"), math("mo", "="));
   const terms = writtenTerms(equation);
   terms.forEach(([name, index], i) => {
-    const sign = document.createTextNode("");
-    changing.push([sign, valueIn(index), (value) => (value < 0 ? "−" : i ? "+" : "")]);
+    const sign = changingText(valueIn(index), (value) => (value < 0 ? "−" : i ? "+" : ""));
     row.append(termSign(i === 0, sign), markTerm(number(valueIn(index), (value) => show(Math.abs(value), 4)), equation, name));
   });
   if (!terms.length) row.append(math("mn", "0"));
@@ -128,7 +127,7 @@ function equationTable(equation) {
   if (symbols) box.append(symbols, inNumbers(equation));
   else box.append(mathLine(math("mrow", ...mathOf(`${equation.inertia} ${equation.accelerationName}`), math("mo", "="), math("mo", "∑"))));
   for (const [term, index] of equation.terms) markTerm(addChanging(table, term, valueIn(index), units), equation, term);
-  addChanging(table, phrase("sum"), (t, row) => sumOf(equation.terms, t, row), units, "sum");
+  addChanging(table, phrase("sum"), (t) => sumOf(equation.terms, t), units, "sum");
   addChanging(table, inMath(equation.inertia), inertiaIn(equation), unit(equation.inertiaUnit));
   addChanging(table, inMath(equation.accelerationName), valueIn(equation.acceleration), unit(equation.accelerationUnit));
   box.append(table);
@@ -156,10 +155,8 @@ function makeTables(bodies) {
 }
 
 function showTables(t) {
-  const row = rowAt(t), clock = `t = ${show(t)} s`;
-  element("equations-time").textContent = clock;
-  element("ledger-time").textContent = clock;
-  for (const [text, value, format] of changing) write(text, (format || show)(value(t, row)));
+  for (const id of ["equations-time", "ledger-time"]) element(id).textContent = `t = ${show(t)} s`;
+  for (const [text, value, format] of changing) write(text, format(value(t)));
 }
 
 // Formulas that are too long scroll, by keys as well.
@@ -186,7 +183,7 @@ function showCost() {
 
 function eventText(i) {
   const label = eventLabel(i);
-  return `t = ${show(eventTimes[i])} s  ${label.body} ${label.kind}: ${run.events.details[i] || label.name}`;
+  return `t = ${show(eventTimes[i])} s  ${label.body} ${label.kind.replace(/_/g, " ")}: ${unit(run.events.details[i] || label.name)}`;
 }
 
 function listEvents() {
@@ -195,7 +192,6 @@ function listEvents() {
   for (const id of ["events", "events-title", "event-before", "event-next"]) element(id).hidden = run.events.count === 0;
   eventTimes.slice(0, most).forEach((t, i) => {
     const button = makeButton(eventText(i));
-    button.dataset.index = i;
     button.addEventListener("click", () => seek(t));
     list.append(button);
   });
@@ -219,8 +215,8 @@ function refresh(everything = true) {
   element("scrub").value = player.t;
   element("clock").textContent = `${show(player.t)} s`;
   if (everything || before - player.written > pause) {
-    showValues(plotWindow.hover === null ? player.t : plotWindow.hover);
-    showTables(plotWindow.hover === null ? player.t : plotWindow.hover);
+    showValues(plotWindow.hover ?? player.t);
+    showTables(plotWindow.hover ?? player.t);
     showCard(player.t);
     if (!player.playing) write(element("words").firstChild, sceneInWords(player.t, chosenBodies()));
     player.written = before;
@@ -230,7 +226,7 @@ function refresh(everything = true) {
 }
 
 function seek(t) {
-  player.t = Math.min(Math.max(t, run.start), run.end);
+  player.t = clamp(t, run.start, run.end);
   refresh();
 }
 
@@ -392,5 +388,5 @@ seekHash();
 
 window.fbd = {
   seek, setPlaying, setSpeed, zoom: setWindow, player, drawn, labels, get run() { return run; },
-  value: (columnName, t) => valueAt(run.columns.findIndex((column) => column.n === columnName), t, rowAt(t)),
+  value: (columnName, t) => valueAt(run.columns.findIndex((column) => column.n === columnName), t),
 };
