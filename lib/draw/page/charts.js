@@ -148,11 +148,13 @@ function makeGraph(chart) {
     visibility: chart.hidden.map((hidden) => !hidden),
     dateWindow: [plotWindow.from, plotWindow.to],
     strokeWidth: 1.5,
+    resizable: "passive", // with its element, whose width depends on the plots beside it
     legend: "never",
     axisLabelWidth: 70,
     highlightCircleSize: 3,
     axes: { x: { axisLabelFormatter: (t) => show(t), valueFormatter: (t) => show(t) }, y: { axisLabelFormatter: (value) => show(value) } },
     underlayCallback: drawMarks,
+    drawCallback: placeCursors,
     zoomCallback: (from, to) => setWindow(Math.max(from, run.start), Math.min(to, run.end)),
     highlightCallback: (event, t) => { plotWindow.hover = t; refresh(); },
     unhighlightCallback: () => { plotWindow.hover = null; refresh(); },
@@ -179,7 +181,6 @@ function makeChart(spec) {
   box.addEventListener("toggle", () => {
     if (!box.isConnected) return; // the event comes later
     if (box.open && !chart.graph) makeGraph(chart);
-    else if (box.open) chart.graph.resize();
     if (box.open && chart.stale) redrawChart(chart);
     refresh();
   });
