@@ -350,8 +350,8 @@ FOLLOWING = {
     "couplings:\n- gear: {name: x}\n- ro": "rod rope roll", "couplings:\n- gear: {name: x}\nsi": "simulate", "units: ": "SI US", "fbd: 1\n\n# of no matter: {\nun": "units",
     "simulate: {until: 3 s, events: [{name: 'a, [b', when: x > 1, then: ": "stop go_on",
 }
-WORDS = "const [text] = arguments, { word, from } = wordAt(text, text.length, false), { path, value } = pathAtEnd(text.slice(0, from)); " \
-        "return wordsOf(schemaAt(path), !value).map((other) => other.word).filter((other) => other.startsWith(word));"
+WORDS = "const [text] = arguments, { word, from } = wordAt(text, text.length, false), { path: trail, value } = pathAtEnd(text.slice(0, from)); " \
+        "return wordsOf(schemaAt(trail), !value).map((other) => other.word).filter((other) => other.startsWith(word));"
 
 
 def check_hints(browser, folder):

@@ -41,6 +41,7 @@ function moved(key, value, underWay = false) {
   if (!bench.controls || !controlOf(key).written) return;
   bench.moved.set(key, value);
   bench.last = key;
+  if (knobs.has(key)) knobs.get(key).told = value;
   const text = benchText();
   askForRun(text, underWay ? rowsUnderWay : 0);
   setEditor(text);

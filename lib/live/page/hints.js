@@ -23,17 +23,17 @@ function schemaUnder(nodes, key) {
   return nodes.map(under).flatMap(schemaNodes);
 }
 
-function schemaAt(path) {
-  return path.reduce(schemaUnder, schemaNodes(hints.schema));
+function schemaAt(trail) {
+  return trail.reduce(schemaUnder, schemaNodes(hints.schema));
 }
 
-// The words that nodes permit, with what they mean: keys if `keys`, and values.
-function wordsOf(nodes, keys) {
+// The words that nodes permit, with what they mean: keys if `asKeys`, and values.
+function wordsOf(nodes, asKeys) {
   const words = new Map();
   const add = (word, means, isKey) => { if (typeof word === "string" && !words.get(word)?.means) words.set(word, { word, means: means || "", isKey }); };
   for (const node of nodes) {
     for (const value of [...(node.enum || []), node.const]) add(value, node.description, false);
-    if (keys) for (const [key, value] of Object.entries(node.properties || {})) add(key, meaningOf(schemaNodes(value)), true);
+    if (asKeys) for (const [key, value] of Object.entries(node.properties || {})) add(key, meaningOf(schemaNodes(value)), true);
   }
   return [...words.values()].filter(({ word }) => word[0] !== "$");
 }
@@ -93,10 +93,10 @@ function wordAt(text, at, whole) {
 
 // What the word at a place of the text means, or else the key whose value that is.
 function meaningAt(text, at) {
-  const { word, from } = wordAt(text, at, true), { path, value } = pathAtEnd(text.slice(0, from)), key = path[path.length - 1];
+  const { word, from } = wordAt(text, at, true), { path: trail, value } = pathAtEnd(text.slice(0, from)), key = trail[trail.length - 1];
   if (/#/.test(text.slice(text.lastIndexOf("\n", from - 1) + 1, from))) return "";
-  const found = wordsOf(schemaAt(path), !value).find((other) => other.word === word);
-  const said = found?.means ? [word, found.means] : [key, key && meaningOf(schemaAt(path))];
+  const found = wordsOf(schemaAt(trail), !value).find((other) => other.word === word);
+  const said = found?.means ? [word, found.means] : [key, key && meaningOf(schemaAt(trail))];
   return said[1] ? said.join(": ") : "";
 }
 
@@ -134,7 +134,7 @@ function openHints(asked) {
   const at = editor.selectionStart, { word, from } = wordAt(editor.value, at, false), text = editor.value.slice(0, from);
   closeHints();
   if (!hints.schema || (!asked && !word) || /#[^\n]*$/.test(text)) return;
-  const { path, value } = pathAtEnd(text), words = wordsOf(schemaAt(path), !value);
+  const { path: trail, value } = pathAtEnd(text), words = wordsOf(schemaAt(trail), !value);
   hints.list = words.filter((other) => other.word.startsWith(word) && (asked || other.word !== word));
   if (!hints.list.length) return;
   hints.from = from;
@@ -147,9 +147,9 @@ function openHints(asked) {
     return item;
   }));
   list.hidden = false;
-  const top = pad + height * text.split("\n").length - editor.scrollTop, paper = element("live-paper");
-  list.style.left = `${Math.max(0, Math.min(pad + width * before.length - editor.scrollLeft, paper.clientWidth - list.offsetWidth))}px`;
-  list.style.top = `${top + list.offsetHeight > paper.clientHeight && top > list.offsetHeight + height ? top - height - list.offsetHeight : top}px`;
+  const top = pad + height * text.split("\n").length - editor.scrollTop, area = element("live-paper");
+  list.style.left = `${Math.max(0, Math.min(pad + width * before.length - editor.scrollLeft, area.clientWidth - list.offsetWidth))}px`;
+  list.style.top = `${top + list.offsetHeight > area.clientHeight && top > list.offsetHeight + height ? top - height - list.offsetHeight : top}px`;
   chooseHint(asked ? 0 : -1);
 }
 

@@ -39,7 +39,8 @@ function stepOf([low, high]) {
   return (high - low) / step > 400 ? 2 * step : step;
 }
 
-const knobs = new Map(); // key: {control, quantity, slider, box, range, shown: in the box, told: by the slider}
+// key: {control, quantity, slider, box, range, shown: in the box, told: by slider, box or grip}
+const knobs = new Map();
 
 function writtenAs(knob, number) {
   const digits = Math.max(0, -Math.floor(Math.log10(knob.step) + 1e-9));
@@ -58,7 +59,7 @@ function makeKnob(key, control, text, tell) {
   box.spellcheck = false;
   box.setAttribute("aria-label", control.name);
   slider.addEventListener("input", () => {
-    box.value = knob.told = writtenAs(knob, slider.value);
+    box.value = writtenAs(knob, slider.value);
     tell(key, box.value, true);
   });
   slider.addEventListener("change", () => tell(key, box.value));
@@ -81,8 +82,9 @@ function setKnob(key, control, text) {
   const knob = knobs.get(key), amount = quantityOf(control, text), spot = control.written;
   const fixed = !spot || control.derived || !Number.isFinite(amount.number), before = knob.shown;
   knob.shown = spot && spot.to !== undefined ? text.slice(spot.from, spot.to) : `${show(amount.number)} ${amount.unit}`.trim();
-  // the range stays while the slider moves, and while others do
-  if ((knob.shown !== before && knob.shown !== knob.told) || (knob.quantity.unit !== amount.unit) || amount.number < knob.range[0] || amount.number > knob.range[1]) {
+  // the range stays where the page itself has changed the number, or another one
+  const { range: [low, high] = [0, 0] } = knob, typed = knob.shown !== before && knob.shown !== knob.told;
+  if (typed || knob.quantity.unit !== amount.unit || amount.number < low || amount.number > high) {
     knob.range = rangeOf(control, amount, key);
     if (amount.number < knob.range[0]) knob.range[0] = amount.number;
     if (amount.number > knob.range[1]) knob.range[1] = amount.number;
