@@ -377,15 +377,21 @@ def check_hints(browser, folder):
         assert browser.run("return editor.value.includes('- drag: ')"), browser.run("return editor.value")
     with claim("what the key means whose value is typed stands under the text"):
         assert browser.run("return element('live-hint').textContent").startswith("drag: ")
-    with claim("Ctrl and Space list all that may stand at the caret, Tab takes the first, Escape closes the list"):
+    with claim("Ctrl and Space list all that may stand at the caret, Tab takes the first, a click another one, Escape closes the list"):
         browser.type("{")
         browser.chord("\ue009", " ")
         assert browser.run("return hints.list.some(({ word }) => word === 'quadratic')")
         browser.press("\ue004")
         assert browser.run("return /- drag: \\{\\w+: /.test(editor.value) && document.activeElement === editor")
+        browser.type("a, ")
+        browser.chord("\ue009", " ")
+        box = browser.run("const r = document.querySelector('#live-words li:nth-child(2)').getBoundingClientRect(); return [r.left + 10, r.top + 8]")
+        word = browser.run("return hints.list[1].word")
+        browser.click(*box)
+        assert browser.run("return editor.value.slice(0, editor.selectionStart)").endswith(f"{word}: ")
         browser.chord("\ue009", " ")
         browser.press("\ue00c")
-        assert browser.run("return element('live-words').hidden")
+        assert browser.run("return element('live-words').hidden && document.activeElement === editor")
     with claim("under the pointer a key has its meaning, and in a comment there is none"):
         settled(browser, "setModel(bench.own, [])")
         for word, want in (("mass:", "mass: "), ("range:", "range: "), ("A block", browser.run("return phrase('live-hints')"))):

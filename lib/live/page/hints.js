@@ -141,9 +141,9 @@ function openHints(asked) {
   const list = element("live-words"), before = text.slice(text.lastIndexOf("\n") + 1), [width, height, pad] = editorGrid();
   list.replaceChildren(...hints.list.map(({ word: name, means }, i) => {
     const item = make("li", "", make("b", "", name), make("small", "", means.slice(0, 80)));
-    Object.assign(item, { id: `live-word-${i}`, role: "option" });
+    item.id = `live-word-${i}`;
     item.setAttribute("role", "option");
-    item.addEventListener("pointerdown", (event) => { event.preventDefault(); takeHint(i); });
+    item.addEventListener("click", () => takeHint(i));
     return item;
   }));
   list.hidden = false;
@@ -179,6 +179,7 @@ function connectHints(schema) {
   hints.schema = JSON.parse(schema);
   showMeaning(0);
   editor.addEventListener("keydown", hintKey);
+  listen("live-words", "mousedown", (event) => event.preventDefault()); // the caret stays in the text
   editor.addEventListener("blur", closeHints);
   editor.addEventListener("scroll", closeHints);
   editor.addEventListener("input", (event) => { if (event.inputType === "insertText" && /^\w$/.test(event.data || "")) openHints(false); else closeHints(); });
