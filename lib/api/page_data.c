@@ -6,7 +6,7 @@
  * bucket, buckets, doubleColumns, floatColumns: of the data - columns: {n: name, u: unit} and one of {c:
  * constant}, {of, a, b: a + b column[of]}, {d | f: number of data} - doubles, floats, envelope: base 64, see
  * pack.h; `doubles` begins with the times - bodies: {name, motion, parent, frame: 3 columns, shapes, G, axis
- * | line, stops, coil, arrows, equations, kinematics} (page_bodies.c, page_equations.c) - links: springs and dampers with another end; couplings (both:
+ * | line, stops, coil, arrows, equations, kinematics} (page_bodies.c, page_equations.c) - links: springs, dampers and actuators with another end; couplings (both:
  * page_links.c) - energy: 4 columns - states: user states - events: {kinds, labels, times, of: index into
  * labels, details}
  *

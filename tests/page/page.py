@@ -318,6 +318,17 @@ def check_guides(browser, folder):
     with claim("a spring about an axis is at the body that lists it, and a surface that runs has arrows in its direction"):
         assert len(walls) == 4 and spirals == ["flap"], (walls, spirals)
         assert arrows and all(way == -1 for way in arrows), arrows
+    with claim("an actuator between two points is drawn between them, where they are"):
+        ram = folder / "ram.html"
+        run("--quiet", "--html", ram, MODELS / "couplings/ram_on_a_cart.yaml")
+        browser.open(ram)
+        ends = browser.run("""const old = drawRam, found = []; drawRam = (a, b, at) => { found.push(a, b); old(a, b, at); };
+            fbd.seek(0.4); drawRam = old; return found.map(([x, y]) => [(x - view.x) / view.scale, (view.y - y) / view.scale]);""")
+        x, theta = browser.run("return [fbd.value('cart.x', 0.4), fbd.value('boom.theta', 0.4)]")
+        for end, want in zip(ends, ((x, -0.6), (x + 0.8 * math.cos(theta), 0.8 * math.sin(theta)))):
+            close(math.dist(end, want), 0, 1e-6)
+        browser.open(path)
+        browser.run("fbd.seek(0.05)")
     with claim("the limits and the speed are written"):
         texts = browser.run("return drawn.labels.map(({ text }) => text)")
         assert {"x ≥ −0.4 m", "x ≤ 0.5 m", "θ ≥ 30°", "θ ≤ 120°", "0.5 m/s"} <= set(texts), texts

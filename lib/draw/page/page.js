@@ -29,13 +29,8 @@ function chosenBodies() {
 // ---- tables
 
 function addRow(table, cells, css = "") {
-  const row = table.insertRow();
-  row.className = css;
-  for (const [text, number] of cells) {
-    const td = row.insertCell();
-    td.append(text);
-    if (number) td.className = "number";
-  }
+  const row = make("tr", css, ...cells.map(([text, number]) => make("td", number ? "number" : "", text)));
+  table.append(row);
   return row;
 }
 
@@ -267,7 +262,8 @@ function changeSpeed(by) {
 // The speed nearest to real time at which the run takes between 2 and 25 s.
 function usualSpeed() {
   const length = run.end - run.start, good = speeds.filter((speed) => length / speed >= 2 && length / speed <= 25);
-  return good.reduce((best, speed) => (Math.abs(Math.log(speed)) < Math.abs(Math.log(best)) ? speed : best), good[0] || 1);
+  const away = (speed) => Math.abs(Math.log(speed));
+  return good.sort((a, b) => away(a) - away(b))[0] || 1;
 }
 
 function seekEvent(direction) {
@@ -331,12 +327,10 @@ function showRun(data) {
 }
 
 // True if the focused element itself uses the key.
-function takesKey(target, key) {
-  if (target.isContentEditable || ["SELECT", "TEXTAREA"].includes(target.tagName)) return true;
-  if (["BUTTON", "SUMMARY"].includes(target.tagName)) return key === " ";
-  if (target.tagName !== "INPUT") return false;
-  if (target.type === "checkbox") return key === " ";
-  return target.type !== "range" || key.startsWith("Arrow") || key === "Home" || key === "End";
+function takesKey({ isContentEditable, tagName, type }, key) {
+  if (isContentEditable || ["SELECT", "TEXTAREA"].includes(tagName)) return true;
+  if (["BUTTON", "SUMMARY"].includes(tagName) || type === "checkbox") return key === " ";
+  return tagName === "INPUT" && (type !== "range" || key.startsWith("Arrow") || key === "Home" || key === "End");
 }
 
 // Write all texts in the language chosen.

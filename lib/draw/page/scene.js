@@ -205,6 +205,13 @@ function drawDamper(a, b, at) {
   }
 }
 
+// A cylinder at the first point, with its rod at the second one.
+function drawRam(a, b, at) {
+  path([a, b]);
+  strokeWith(tone.edge, 3);
+  drawPlate([at(0.15, 7), at(0.65, 7), at(0.65, -7), at(0.15, -7)], tone.ground);
+}
+
 // A coil of nine turns seen from the side: a circle that moves along the spring.
 function drawSpring(a, b, at, length) {
   const turns = 9, round = 14, radius = Math.min(9, length / 6), points = [a];
@@ -222,7 +229,7 @@ function drawLink(link, frames) {
   const end = (frame, point) => { const [x, y] = onCanvas(frame, point); return [x + beside * nx, y - beside * ny]; };
   const a = end(frames[link.partner], link.anchor), b = end(frames[link.body], link.point);
   const [length, ux, uy] = wayTo(a, b), at = (along, across) => [a[0] + ux * length * along - uy * across, a[1] + uy * length * along + ux * across];
-  if (link.kind === "damper") drawDamper(a, b, at); else drawSpring(a, b, at, length);
+  ({ damper: drawDamper, actuator: drawRam }[link.kind] || drawSpring)(a, b, at, length);
   avoidLine(...a, ...b);
   if (link.wall) drawWall(a, [-ux, -uy], 14);
   else dot(a[0], a[1], 3, tone.soft);
