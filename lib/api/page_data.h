@@ -11,6 +11,9 @@
  * out. */
 bool page_data_write(struct text *text, fbd_result *result, struct record *record, size_t most_bytes);
 
+/* The member `speed` of a surface that runs: null where it varies. */
+void page_speed_write(struct text *text, const struct value *speed);
+
 /* The members `links` and `couplings` of the data. */
 void page_links_write(struct text *text, const struct record *record);
 void page_couplings_write(struct text *text, const fbd_result *result, const struct record *record);

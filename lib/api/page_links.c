@@ -2,7 +2,7 @@
  *
  * The elements that the page draws between bodies.
  *
- * - links: springs and dampers, {body, kind, point, partner, anchor} - couplings: {kind, name, ends, length,
+ * - links: springs, dampers and actuators, {body, kind, point, partner, anchor} - couplings: {kind, name, ends, length,
  * e, side, force}, a rope cut at its pulleys (coupling.h)
  *
  * An end is {body, point, radius, side, wound}; the body of the ground is -1. Points of a body are relative
@@ -16,6 +16,13 @@
 #include "expr/curve.h"
 
 /* ---- links */
+
+/* As the page draws a load between two points; NULL for others. An actuator in a given direction is an arrow alone. */
+static const char *link_kind(const struct load *load)
+{
+    if (load->kind == load_actuator) return load->guided ? NULL : "actuator";
+    return load->kind == load_damper ? "damper" : load->kind == load_spring ? "spring" : NULL;
+}
 
 /* The other end: on the ground, on another body, or null for a wall without a position in the file. */
 static void write_other_end(struct text *text, const struct fbd_model *model, const struct model_load *load)
@@ -37,13 +44,12 @@ void page_links_write(struct text *text, const struct record *record)
     for (size_t i = 0; i < model->load_count; i++) {
         const struct model_load *load = &model->loads[i];
         const struct model_body *body = &model->bodies[load->body];
-        enum load_kind kind = load->source->kind;
-        if (kind != load_spring && kind != load_damper) continue;
+        const char *kind = link_kind(load->source);
+        if (!kind) continue;
         bool to_a_wall = body->joint->path == path_line && body->parent == ground_body;
         if (!load->linked && !to_a_wall) continue;
         json_comma(text, written++);
-        text_printf(text, "{\"body\":%d,\"kind\":\"%s\",\"point\":", load->body,
-                    kind == load_damper ? "damper" : "spring");
+        text_printf(text, "{\"body\":%d,\"kind\":\"%s\",\"point\":", load->body, kind);
         json_vector(text, vec_sub(load->point, body->pin));
         write_other_end(text, model, load);
         text_add(text, "}");
@@ -124,6 +130,7 @@ static void write_coupling(struct text *text, const struct record *record, const
         write_slot(text, model, coupling);
     json_number_member(text, "length", coupling->reels ? 0 : state->zero);
     json_vector_member(text, "e", vec_unit(model->scene->constraints[coupling->constraint].along));
+    page_speed_write(text, &coupling->source->surface_speed);
     text_printf(text, "\"side\":%d,\"force\":%d}", state->side[0], force_column(record, coupling));
 }
 
@@ -133,6 +140,7 @@ static void write_surface(struct text *text, const struct constraint *source, in
     const struct polygon *polygon = source->contact.polygon;
     struct vec e = vec_unit(source->along);
     text_add(text, "{");
+    page_speed_write(text, &source->surface_speed);
     if (!polygon) {
         json_vector_member(text, "point", source->point[1].where);
         json_vector_member(text, "e", e);

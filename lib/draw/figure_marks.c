@@ -17,25 +17,27 @@ static struct vec mark_place(const struct figure *figure, int body)
     return panel_point(figure->pen, panel_place(panel, pivot ? vec_of(panel->body.pin) : panel->G));
 }
 
-/* A dashed line through the bodies of a ratio, with its name. */
+/* Dashed lines from the first body of a ratio to the others, with its name at the longest one. */
 static void draw_ratio(struct figure *figure, const fbd_connection *ratio)
 {
     struct panel *pen = figure->pen;
-    struct vec last = {0, 0}, longest = {0, 0}, side = {1, 0};
+    struct vec from = {0, 0}, longest = {0, 0}, side = {1, 0};
     double most = 0;
-    int before = FBD_GROUND;
+    int first = FBD_GROUND;
     for (size_t k = 0; k < ratio->end_count; k++) {
         const int body = ratio->ends[k].body;
-        if (body < 0 || body == before) continue;
-        const struct vec at = mark_place(figure, body), way = vec_sub(at, last);
-        if (before >= 0) panel_line(pen, "reference", last, at, on_outline);
-        if (before >= 0 && vec_norm(way) > most) {
-            most = vec_norm(way);
-            longest = vec_add(last, vec_scale(0.5, way));
-            side = vec_scale(1 / most, vec_perp(way));
+        if (body < 0 || body == first) continue;
+        const struct vec at = mark_place(figure, body), way = vec_sub(at, from);
+        if (first < 0) {
+            first = body;
+            from = at;
+            continue;
         }
-        before = body;
-        last = at;
+        panel_line(pen, "reference", from, at, on_outline);
+        if (vec_norm(way) <= most) continue;
+        most = vec_norm(way);
+        longest = vec_add(from, vec_scale(0.5, way));
+        side = vec_scale(1 / most, vec_perp(way));
     }
     if (most > 0) panel_note(pen, panel_indexed(&figure->arena, ratio->name), longest, side);
 }

@@ -104,7 +104,7 @@ static void draw_coil(struct figure *figure, const struct panel *panel, const st
 
 static void draw_coils(struct figure *figure, const struct panel *panel)
 {
-    for (size_t i = 0; i < panel->force_count; i++) {
+    for (size_t i = 0; i < panel->body.listed; i++) { /* without reactions of springs on other bodies */
         const fbd_force *force = &panel->forces[i];
         if (force->moment && strcmp(force->kind, "spring") == 0)
             draw_coil(figure, panel, letters_entry(&figure->letters, panel->body.name, force->arrow.name));

@@ -15,9 +15,10 @@ from fbd import MODELS, SOURCE, run  # noqa: E402
 AXE = Path(os.environ["FBD_AXE"]).read_text(encoding="utf-8")
 WIDTHS = [(1400, 1000), (800, 1000), (390, 844)]
 NAMES = ["kinetics/incline", "couplings/slider_crank", "contact/cradle", "vibration/damped_oscillator"]
-# Each finding as its rule, its element and its reasons; all parts that are folded are unfolded.
+# Each finding as its rule, its element and its reasons; all parts that are folded are unfolded, and words for the editor listed.
 FIND = """
 for (const part of document.querySelectorAll('details')) part.open = true;
+if (typeof openHints === 'function') { editor.focus(); openHints(true); }
 await new Promise((done) => setTimeout(done, 500));
 const found = await axe.run(document, { resultTypes: ['violations'] });
 return found.violations.flatMap(({ id, nodes }) =>

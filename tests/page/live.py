@@ -343,6 +343,100 @@ def check_editor(browser, folder):
         is_quiet(browser, path)
 
 
+# Beginnings of texts, and words that may follow; or, behind a blank, words that may not.
+FOLLOWING = {
+    "bod": "bodies", "bodies:\n  a:\n    mo": "motion moments", "bodies:\n  a:\n    motion: ": "slide pivot", "bodies:\n  a:\n    motion: {slide: {": "along min max",
+    "bodies:\n  a:\n    shape: ": "rod disc", "bodies:\n  a:\n    forces: [gravity, friction: {st": "static", "bodies:\n  a:\n    forces:\n      - gravity\n      - fr": "friction",
+    "couplings:\n- gear: {name: x}\n- ro": "rod rope roll", "couplings:\n- gear: {name: x}\nsi": "simulate", "units: ": "SI US", "fbd: 1\n\n# of no matter: {\nun": "units",
+    "simulate: {until: 3 s, events: [{name: 'a, [b', when: x > 1, then: ": "stop go_on",
+}
+WORDS = "const [text] = arguments, { word, from } = wordAt(text, text.length, false), { path: trail, value } = pathAtEnd(text.slice(0, from)); " \
+        "return wordsOf(schemaAt(trail), !value).map((other) => other.word).filter((other) => other.startsWith(word));"
+
+
+def check_hints(browser, folder):
+    path = live_page(folder, INCLINE)
+    open_live(browser, path)
+    wait_for(browser, "hints.schema")
+    with claim("the words that may follow are those of the schema at this place"):
+        for text, words in FOLLOWING.items():
+            assert set(words.split()) <= set(found := browser.run(WORDS, text)), (text, found)
+        assert browser.run(WORDS, "bodies:\n  a:\n    motion: res") == []
+    with claim("a word that is begun is listed with its meaning, and written by arrow and Enter; Enter alone begins a line"):
+        browser.run("editor.focus(); const at = editor.value.indexOf('- gravity') + 9; editor.setSelectionRange(at, at)")
+        browser.type("\n      - dra")
+        assert browser.run("return hints.list.map(({ word }) => word)") == ["drag"]
+        assert "drag" in browser.run("return document.querySelector('#live-words li').textContent")
+        browser.press("\ue007")
+        assert browser.run("return editor.value.includes('- dra\\n') && element('live-words').hidden")
+        browser.press("\ue003")
+        browser.press("\ue003")
+        browser.type("a")
+        browser.press("\ue015")
+        browser.press("\ue007")
+        assert browser.run("return editor.value.includes('- drag: ')"), browser.run("return editor.value")
+    with claim("what the key means whose value is typed stands under the text"):
+        assert browser.run("return element('live-hint').textContent").startswith("drag: ")
+    with claim("Ctrl and Space list all that may stand at the caret, Tab takes the first, a click another one, Escape closes the list"):
+        browser.type("{")
+        browser.chord("\ue009", " ")
+        assert browser.run("return hints.list.some(({ word }) => word === 'quadratic')")
+        browser.press("\ue004")
+        assert browser.run("return /- drag: \\{\\w+: /.test(editor.value) && document.activeElement === editor")
+        browser.type("a, ")
+        browser.chord("\ue009", " ")
+        box = browser.run("const r = document.querySelector('#live-words li:nth-child(2)').getBoundingClientRect(); return [r.left + 10, r.top + 8]")
+        word = browser.run("return hints.list[1].word")
+        browser.click(*box)
+        assert browser.run("return editor.value.slice(0, editor.selectionStart)").endswith(f"{word}: ")
+        browser.chord("\ue009", " ")
+        browser.press("\ue00c")
+        assert browser.run("return element('live-words').hidden && document.activeElement === editor")
+    with claim("under the pointer a key has its meaning, and in a comment there is none"):
+        settled(browser, "setModel(bench.own, [])")
+        for word, want in (("mass:", "mass: "), ("range:", "range: "), ("A block", browser.run("return phrase('live-hints')"))):
+            x, y = browser.run("element('live-model').scrollIntoView(); const row = editor.value.slice(0, editor.value.indexOf(arguments[0])).split('\\n'), [w, h, pad] = editorGrid(); "
+                               "editor.scrollTop = h * (row.length - 4); const r = editor.getBoundingClientRect(); "
+                               "return [r.left + pad + w * (row.at(-1).length + 1.5), r.top + pad + h * (row.length - 0.5) - editor.scrollTop];", word)
+            browser.drag([(x, y)], press=False, release=False)
+            said = browser.run("return element('live-hint').textContent")
+            assert said.startswith(want), (word, said)
+    with claim("the page is quiet and asks for nothing"):
+        is_quiet(browser, path)
+
+
+def check_wrong(browser, folder):
+    path = live_page(folder, INCLINE)
+    open_live(browser, path, "#m=nothing-of-a-model")
+    enter = "const { box } = knobs.get(arguments[0]); box.value = arguments[1]; box.dispatchEvent(new Event('change'))"
+    with claim("a link that is none shows the page's own model"):
+        assert browser.run("return editor.value === bench.own")
+    with claim("a box with what is no value says it, is marked, and gets the last value back when it is emptied"):
+        for text, said in (("abc", "nothing is called `abc` here"), ("100 deg", "this is no range for `phi`")):
+            settled(browser, enter, "parameters.phi", text)
+            assert browser.run("return [element('live-says').textContent, knobs.get('parameters.phi').box.getAttribute('aria-invalid')]") == [said, "true"]
+        settled(browser, enter, "parameters.phi", "")
+        assert browser.run("return [editor.value === bench.own, knobs.get('parameters.phi').box.getAttribute('aria-invalid')]") == [True, "false"]
+    with claim("a value far off makes a range, which goes with it"):
+        whole = browser.run("return knobs.get('until').range")
+        settled(browser, enter, "until", "1e6 s")
+        settled(browser, "setModel(bench.own, [])")
+        assert browser.run("return knobs.get('until').range") == whole
+    with claim("a note of a text that is no model says what is wrong"):
+        settled(browser, "setEditor(bench.own.replace('{slide:', '{slid:')); editor.dispatchEvent(new Event('input'))")
+        browser.run("element('live-says').textContent = ''; element('live-note').click()")
+        wait_for(browser, "element('live-says').textContent.includes('`slid`')")
+        settled(browser, "setModel(bench.own, [])")
+    with claim("derivations by hand are compared in the page as by --check-hand: these agree, with another sign they do not"):
+        answer = json.loads(browser.run(WORKER, "check_hand"))
+        assert answer["errors"] == [] and answer["hand"]["differing"] == 0, answer
+        hand = browser.run("return bench.own.match(/m\\*v_dot.*/)[0]")
+        browser.run("bench.own = bench.own.replace(arguments[0], arguments[0].replace('= ', '= -'))", hand)
+        assert json.loads(browser.run(WORKER, "check_hand"))["hand"]["differing"] > 0
+    with claim("the page is quiet and asks for nothing"):
+        is_quiet(browser, path)
+
+
 def check_effects(browser, folder):
     path = live_page(folder, INCLINE)
     open_live(browser, path)
@@ -459,6 +553,8 @@ def main():
                 check_grips(browser, folder)
                 check_language(browser, folder)
                 check_editor(browser, folder)
+                check_hints(browser, folder)
+                check_wrong(browser, folder)
                 check_effects(browser, folder)
                 check_values(browser, folder)
                 check_set(browser, folder)

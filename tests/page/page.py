@@ -268,6 +268,74 @@ def check_couplings(browser, folder):
         assert slack == [False, False, True, True, True, False, False], slack
 
 
+STOPS = """fbd: 1
+bodies:
+  cart:
+    mass: 2 kg
+    shape: prism
+    a: 0.3 m
+    b: 0.2 m
+    motion: {slide: {min: -0.4 m, max: 0.5 m, restitution: 0.5}}
+    initial: {v: 1 m/s}
+    forces: [gravity, normal, friction: {static: 0.4, kinetic: 0.1, surface_speed: -0.5 m/s}]
+  flap:
+    mass: 1 kg
+    shape: rod
+    length: 0.4 m
+    motion: {pivot: {on: cart, at: [0, 0.1], point: left, min: 30 deg, max: 120 deg, restitution: 0.4}}
+    initial: {theta: 60 deg}
+    forces: [gravity]
+    moments: [spring: {stiffness: 2 N*m/rad}]
+simulate: {until: 1 s}
+"""
+
+
+def check_guides(browser, folder):
+    """Stops, springs about an axis and surfaces that run, in the frame of the body that carries them."""
+    model, path = folder / "stops.yaml", folder / "stops.html"
+    model.write_text(STOPS, encoding="utf-8")
+    run("--quiet", "--html", path, model)
+    browser.open(path)
+    walls, spirals, arrows = browser.run("""
+        const walls = [], spirals = [], arrows = [], old = [drawWall, drawSpiral, plainArrow];
+        const world = ([x, y]) => [(x - view.x) / view.scale, (view.y - y) / view.scale];
+        drawWall = (at, n, half) => { if (half === 12) walls.push([...world(at), n[0], -n[1]]); old[0](at, n, half); };
+        drawSpiral = (body, ...others) => { spirals.push(body.name); old[1](body, ...others); };
+        plainArrow = (at, e, ...others) => { if (at[1] < view.height - 30) arrows.push(e[0]); old[2](at, e, ...others); };
+        fbd.seek(0.05); drawStill();
+        [drawWall, drawSpiral, plainArrow] = old;
+        return [walls, spirals, arrows];""")
+    with claim("the walls of a slide stand where its body stops"):
+        for wall, want in zip(walls, ((-0.4 - 0.15, -1), (0.5 + 0.15, 1))):
+            close(wall[0], want[0], 1e-9)
+            close(wall[2], want[1], 1e-9)
+    with claim("those of a pivot at its limits, on the body that carries it, hatched on the far side"):
+        x = browser.run("return fbd.value('cart.x', 0.05)")
+        for wall, limit, sign in zip(walls[2:], (30, 120), (-1, 1)):
+            close(math.degrees(math.atan2(wall[1] - 0.1, wall[0] - x)), limit, 1e-9)
+            beyond = math.radians(limit + sign * 90)
+            close(wall[2] * math.cos(beyond) + wall[3] * math.sin(beyond), 1, 1e-12)
+    with claim("a spring about an axis is at the body that lists it, and a surface that runs has arrows in its direction"):
+        assert len(walls) == 4 and spirals == ["flap"], (walls, spirals)
+        assert arrows and all(way == -1 for way in arrows), arrows
+    with claim("an actuator between two points is drawn between them, where they are"):
+        ram = folder / "ram.html"
+        run("--quiet", "--html", ram, MODELS / "couplings/ram_on_a_cart.yaml")
+        browser.open(ram)
+        ends = browser.run("""const old = drawRam, found = []; drawRam = (a, b, at) => { found.push(a, b); old(a, b, at); };
+            fbd.seek(0.4); drawRam = old; return found.map(([x, y]) => [(x - view.x) / view.scale, (view.y - y) / view.scale]);""")
+        x, theta = browser.run("return [fbd.value('cart.x', 0.4), fbd.value('boom.theta', 0.4)]")
+        for end, want in zip(ends, ((x, -0.6), (x + 0.8 * math.cos(theta), 0.8 * math.sin(theta)))):
+            close(math.dist(end, want), 0, 1e-6)
+        browser.open(path)
+        browser.run("fbd.seek(0.05)")
+    with claim("the limits and the speed are written"):
+        texts = browser.run("return drawn.labels.map(({ text }) => text)")
+        assert {"x ≥ −0.4 m", "x ≤ 0.5 m", "θ ≥ 30°", "θ ≤ 120°", "0.5 m/s"} <= set(texts), texts
+    with claim("a page with stops is quiet and asks for nothing"):
+        page_is_quiet(browser, path)
+
+
 def check_early_end(browser, folder):
     model, path = MODELS / "hard/not_a_number_beyond.yaml", folder / "early.html"
     outcome = json.loads(run("--json", "-", "--html", path, model, code=1))
@@ -399,7 +467,7 @@ def main():
             browser.open("/dev/null")
             browser.requests()  # those of the browser's first page
             browser.log("browser")
-            for check in (check_incline, check_pendulum, check_joined, check_couplings, check_early_end, check_all,
+            for check in (check_incline, check_pendulum, check_joined, check_couplings, check_guides, check_early_end, check_all,
                           check_text_is_data, check_many, check_long):
                 check(browser, Path(name))
     except Missing as missing:

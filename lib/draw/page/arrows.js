@@ -67,14 +67,14 @@ function arrowTo(point, dx, dy, colour, key) {
   const ux = dx / whole, uy = dy / whole, from = stepAside(point, ux, uy, Math.min(whole, longestArrow()));
   const length = Math.min(roomFor(from, ux, uy, Math.min(whole, longestArrow())), whole);
   if (length < 6 && length < whole) return null;
-  const x = from[0] + length * ux, y = from[1] + length * uy;
-  path([from, [x - Math.min(8, length) * ux, y - Math.min(8, length) * uy]]);
+  const on = (s) => [from[0] + s * ux, from[1] + s * uy], tip = on(length);
+  path([from, on(Math.max(length - 8, 0))]);
   strokeArrow(colour, key);
-  if (length < whole * (1 - 1e-9)) drawCut(from[0] + 0.45 * length * ux, from[1] + 0.45 * length * uy, ux, uy, colour);
-  head(x, y, ux, uy, colour);
-  avoidLine(from[0], from[1], x, y);
-  drawn.arrows.push([from[0], from[1], x, y, false, key]);
-  return [x, y];
+  if (length < whole * (1 - 1e-9)) drawCut(...on(0.45 * length), ux, uy, colour);
+  head(...tip, ux, uy, colour);
+  avoidLine(...from, ...tip);
+  drawn.arrows.push([...from, ...tip, false, key]);
+  return tip;
 }
 
 function arrowKey(body, arrow) {
@@ -82,30 +82,41 @@ function arrowKey(body, arrow) {
 }
 
 function labelOf(name, value, units, shows) {
-  return [shows.names ? quantity(name) : "", shows.values ? `${show(value, 3)} ${unit(units)}` : ""].filter(Boolean).join(" ");
+  return [shows.names ? quantity(name) : "", shows.values ? measured(value, units) : ""].filter(Boolean).join(" ");
+}
+
+// Draw an arc about [x, y] from an angle of the world by `sweep`, with a head if it is longer than `least`.
+function drawArc([x, y], radius, from, sweep, colour, stroke, least) {
+  const end = from + sweep, way = sweep > 0 ? 1 : -1, turn = end - way * 5 / radius; // direction of the head: the chord of its arc
+  pen.beginPath();
+  pen.arc(x, y, radius, -from, -end, sweep > 0);
+  stroke();
+  avoidLine(x, y, radius);
+  if (Math.abs(sweep) * radius > least) head(x + radius * Math.cos(end), y - radius * Math.sin(end), -way * Math.sin(turn), -way * Math.cos(turn), colour);
+}
+
+// A label at an angle of an arc.
+function labelArc([x, y], radius, angle, key, text, colour) {
+  const c = Math.cos(angle), s = Math.sin(angle);
+  wantLabel(key, text, x + radius * c, y - radius * s, c, -s, colour);
 }
 
 // Draw a moment as an arc around [x, y]; further ones of the body have larger radii.
 function drawCouple([x, y], couple, index, colour, key, text) {
-  const radius = 24 + 7 * index, sweep = Math.max(-5, Math.min(5, 4.2 * couple / view.moment));
+  const radius = 24 + 7 * index, from = 0.5 + 0.6 * index, sweep = clamp(4.2 * couple / view.moment, -5, 5);
   if (Math.abs(sweep) < 0.15) return false;
-  const start = -0.5 - 0.6 * index, end = start - sweep, way = sweep > 0 ? 1 : -1;
-  pen.beginPath();
-  pen.arc(x, y, radius, start, end, sweep > 0);
-  strokeArrow(colour, key);
-  const tip = [x + radius * Math.cos(end), y + radius * Math.sin(end)];
-  head(tip[0] + 6 * way * Math.sin(end), tip[1] - 6 * way * Math.cos(end), way * Math.sin(end), -way * Math.cos(end), colour);
-  if (text) wantLabel(`${key}:moment`, text, ...tip, Math.cos(end), Math.sin(end), colour);
+  drawArc([x, y], radius, from, sweep + 6 * Math.sign(sweep) / radius, colour, () => strokeArrow(colour, key), 0);
+  if (text) labelArc([x, y], radius, from + sweep, `${key}:moment`, text, colour);
   drawn.arrows.push([x - radius, y - radius, x + radius, y + radius, true, key]);
   return true;
 }
 
-function drawForces(body, frame, t, row, shows) {
+function drawForces(body, frame, t, shows) {
   const length = pixelsPerForce(), labelled = shows.names || shows.values;
   let couples = 0;
   for (const arrow of body.arrows) {
-    const [fx, fy, px, py, couple] = arrow.arrow.map((c) => valueAt(c, t, row)), colour = tone[arrow.hue], key = arrowKey(body, arrow);
-    const size = Math.hypot(fx, fy), least = roundingOf(run.units.force), from = toScreen(place(frame, px, py));
+    const [fx, fy, px, py, couple] = valuesAt(arrow.arrow, t), colour = tone[arrow.hue], key = arrowKey(body, arrow);
+    const size = Math.hypot(fx, fy), least = roundingOf(run.units.force), from = onCanvas(frame, [px, py]);
     const tip = size > least ? arrowTo(from, fx * length, -fy * length, colour, key) : null;
     if (tip && labelled) wantLabel(key, labelOf(arrow.name, size, run.units.force, shows), ...tip, fx / size, -fy / size, colour);
     if (Math.abs(couple) <= roundingOf(run.units.moment)) continue;
@@ -114,16 +125,28 @@ function drawForces(body, frame, t, row, shows) {
   }
 }
 
-function drawVelocity(body, frame, t, row, shows) {
-  const [vx, vy] = velocityAt(body, t, row), speed = Math.hypot(vx, vy);
+function drawVelocity(body, frame, t, shows) {
+  const [vx, vy] = valuesAt(body.velocity, t), speed = Math.hypot(vx, vy);
   if (!(speed > roundingOf(run.units.speed))) return;
-  const length = arrowShare * Math.min(view.width, view.height) / view.speed;
-  const tip = arrowTo(toScreen(place(frame, ...body.G)), vx * length, -vy * length, tone.velocity);
+  const length = arrowShare * view.side / view.speed;
+  const tip = arrowTo(onCanvas(frame, body.G), vx * length, -vy * length, tone.velocity);
   if (tip && (shows.names || shows.values))
     wantLabel(`${body.name}:v`, labelOf("v", speed, run.units.speed, shows), ...tip, vx / speed, -vy / speed, tone.velocity);
 }
 
 // ---- axes, scales, angles
+
+// An arrow that is no force: from a point, `length` along a unit vector.
+function plainArrow([x, y], [ux, uy], length, colour) {
+  path([[x, y], [x + (length - 8) * ux, y + (length - 8) * uy]]);
+  strokeWith(colour, 2.2);
+  head(x + length * ux, y + length * uy, ux, uy, colour);
+}
+
+// The degrees of an angle.
+function degrees(angle) {
+  return `${show(angle * 180 / Math.PI, 3)}°`;
+}
 
 // The largest of 1, 2 or 5 times a power of ten that is at most `most`.
 function roundBelow(most) {
@@ -133,15 +156,7 @@ function roundBelow(most) {
 
 function plainText(text, x, y, colour, boxed = true) {
   const width = textWidth(text);
-  pen.textAlign = "left";
-  pen.textBaseline = "middle";
-  pen.font = labelFont;
-  pen.setLineDash([]);
-  pen.lineWidth = 3;
-  pen.strokeStyle = tone.paper;
-  pen.strokeText(text, x, y);
-  pen.fillStyle = colour;
-  pen.fillText(text, x, y);
+  writeText(text, x, y, colour);
   if (boxed) avoidBox(x, y - 8, x + width, y + 8, text);
   return width;
 }
@@ -157,53 +172,34 @@ function drawScales(shows) {
   plainText("y", x + 6, y - 18, soft, false);
   x += 26 + plainText("x", x + 26, y, soft, false);
   avoidBox(12, y - 26, x, y + 8, "axes");
-  const bar = (value, units, draw) => {
-    const text = `${show(value, 3)} ${unit(units)}`, pixels = draw.scale * value;
-    if (!Number.isFinite(pixels) || x + 24 + pixels + textWidth(text) > view.width - 8) return;
-    x += 18;
-    draw.at(x, pixels);
-    x += pixels + 6;
-    x += plainText(text, x, y, draw.colour);
+  const add = (scale, units, colour, ruler) => {
+    const value = roundBelow(Math.min(110, view.width / 6) / scale), text = measured(value, units), pixels = scale * value, end = x + 18 + pixels;
+    if (!(end + 6 + textWidth(text) <= view.width - 8)) return;
+    if (ruler) {
+      path([[x + 18, y - 4], [x + 18, y + 4], [x + 18, y], [end, y], [end, y - 4], [end, y + 4]]);
+      strokeWith(colour, 1.2);
+    } else plainArrow([x + 18, y], [1, 0], pixels, colour);
+    x = end + 6 + plainText(text, end + 6, y, colour);
   };
-  const ruler = (colour) => (from, pixels) => {
-    path([[from, y - 4], [from, y + 4], [from, y], [from + pixels, y], [from + pixels, y - 4], [from + pixels, y + 4]]);
-    strokeWith(colour, 1.2);
-  };
-  const arrow = (colour) => (from, pixels) => {
-    path([[from, y], [from + pixels - 8, y]]);
-    strokeWith(colour, 2.2);
-    head(from + pixels, y, 1, 0, colour);
-  };
-  const most = Math.min(110, view.width / 6), add = (scale, units, colour, way) => {
-    if (scale > 0 && Number.isFinite(scale)) bar(roundBelow(most / scale), units, { scale, colour, at: way(colour) });
-  };
-  add(view.scale, run.units.length, soft, ruler);
-  if (shows.forces && run.bodies.some((body) => body.arrows.length)) add(pixelsPerForce(), run.units.force, soft, arrow);
-  if (shows.velocity) add(arrowShare * Math.min(view.width, view.height) / view.speed, run.units.speed, tone.velocity, arrow);
+  add(view.scale, run.units.length, soft, true);
+  if (shows.forces && held.arrows.length) add(pixelsPerForce(), run.units.force, soft);
+  if (shows.velocity) add(arrowShare * view.side / view.speed, run.units.speed, tone.velocity);
 }
 
 // Draw an arc from angle `from` by `sweep`, both as in the world, with its label.
 function drawAngle([x, y], from, sweep, radius, key, text) {
   path([[x, y], [x + (radius + 14) * Math.cos(from), y - (radius + 14) * Math.sin(from)]]);
   strokeWith(tone.soft, 1, [4, 3]);
-  pen.beginPath();
-  pen.arc(x, y, radius, -from, -from - sweep, sweep > 0);
-  strokeWith(tone.soft, 1.2);
-  const end = from + sweep, way = sweep > 0 ? 1 : -1, tip = [x + radius * Math.cos(end), y - radius * Math.sin(end)];
-  if (Math.abs(sweep) * radius > 12) {
-    const turn = end - way * 5 / radius; // direction of the head: the chord of its arc
-    head(...tip, -way * Math.sin(turn), -way * Math.cos(turn), tone.soft);
-  }
-  const middle = from + sweep / 2;
-  wantLabel(key, text, x + radius * Math.cos(middle), y - radius * Math.sin(middle), Math.cos(middle), -Math.sin(middle), tone.soft);
+  drawArc([x, y], radius, from, sweep, tone.soft, () => strokeWith(tone.soft, 1.2), 12);
+  labelArc([x, y], radius, from + sweep / 2, key, text, tone.soft);
 }
 
 // Draw the angle of an inclined slide on the ground, at its low end on the canvas, once for each direction; and that of
 // a pivoted body from its zero.
-function drawAngles(frames, t, row, chosen) {
-  const seen = new Set(), degrees = (angle) => `${show(angle * 180 / Math.PI, 3)}°`;
+function drawAngles(frames, t, chosen) {
+  const seen = new Set();
   run.bodies.forEach((body, i) => {
-    if (body.line && body.line.on < 0) {
+    if (body.line?.on < 0) {
       const [ex, ey] = body.line.along, angle = Math.atan2(ey, ex), name = degrees(angle);
       if (Math.abs(ex) < 1e-9 || Math.abs(ey) < 1e-9 || seen.has(name)) return;
       seen.add(name);
@@ -211,20 +207,19 @@ function drawAngles(frames, t, row, chosen) {
       if (corner) drawAngle(corner, ex > 0 ? 0 : Math.PI, Math.atan(ey / ex), 44, `${body.name}:slope`, degrees(Math.abs(Math.atan(ey / ex))));
     }
     if (body.motion !== "pivot" || (chosen === null ? run.bodies.length > 3 : chosen !== i)) return;
-    const theta = valueAt(body.coordinates[0], t, row), turn = Math.atan2(Math.sin(theta), Math.cos(theta));
-    const hangs = Math.hypot(...body.G) > 0, own = hangs ? Math.atan2(body.G[1], body.G[0]) : 0;
-    const turned = Math.atan2(frames[i].s, frames[i].c) + own;
+    const theta = valueAt(body.coordinates[0], t), turn = Math.atan2(Math.sin(theta), Math.cos(theta));
+    const own = Math.atan2(body.G[1], body.G[0]);
+    const turned = frames[i].angle + own;
     if (Math.abs(turn) > 0.03) drawAngle(toScreen([frames[i].x, frames[i].y]), turned - turn, turn, 40, `${body.name}:angle`, `θ = ${degrees(theta)}`);
   });
 }
 
 // The point near the canvas's edge where the line under a slide enters at its low end; null if there is none.
 function lowEnd(body) {
-  const { through, along } = body.line, [x, y] = toScreen(through), way = along[1] > 0 ? -1 : 1;
+  const { through, along, normal } = body.line, [x, y] = toScreen(through), way = along[1] > 0 ? -1 : 1;
   const dx = way * along[0], dy = -way * along[1], bottom = view.height - strip - 8;
   const sides = [dx > 0 ? (view.width - 50 - x) / dx : (50 - x) / dx, (bottom - y) / dy].filter(Number.isFinite);
   const s = Math.min(...sides), foot = [x + s * dx, y + s * dy];
-  const down = body.line.surface ? body.line.reach * view.scale || view.block * 0.7 : 0;
-  const corner = [foot[0] - body.line.normal[0] * down, foot[1] + body.line.normal[1] * down];
+  const down = surfaceBelow(body), corner = [foot[0] - normal[0] * down, foot[1] + normal[1] * down];
   return corner.every((v) => v > 0) && corner[0] < view.width && corner[1] < view.height ? corner : null;
 }

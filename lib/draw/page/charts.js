@@ -25,8 +25,8 @@ function curvesOf(columns) {
   return all.map((curve, i) => ({ ...curve, dash: dashes[all.slice(0, i).filter(({ hue }) => hue === curve.hue).length % dashes.length] }));
 }
 
-function coloursOf(spec) {
-  return curvesOf(spec.columns).map(({ hue }) => tone[hue]);
+function looksOf(spec) {
+  return { colors: curvesOf(spec.columns).map(({ hue }) => tone[hue]), gridLineColor: tone.line, axisLineColor: tone.soft };
 }
 
 // The displayed unit, degrees for angles of coordinates and their rates if the page uses degrees, and its size.
@@ -36,27 +36,19 @@ function inUnit(text, angles) {
 }
 
 function byUnit(title, columns, angles = false) {
-  const groups = new Map();
-  for (const c of columns) {
-    const key = run.columns[c].u;
-    groups.set(key, (groups.get(key) || []).concat(c));
-  }
-  return [...groups].map(([key, members]) => ({ title, ...inUnit(key, angles), columns: members }));
+  const units = [...new Set(columns.map((c) => run.columns[c].u))];
+  return units.map((text) => ({ title, ...inUnit(text, angles), columns: columns.filter((c) => run.columns[c].u === text) }));
 }
 
 // The plots for the chosen bodies.
 function chartSpecs(bodies) {
-  const all = (member) => bodies.reduce((list, body) => list.concat(body[member]), []);
-  const [kinetic, potential, work, residual] = run.energy;
-  let specs = [...byUnit(phrase("coordinates"), all("coordinates"), true), ...byUnit(phrase("velocities"), all("rates"), true)];
-  for (const body of bodies) {
-    const columns = body.arrows.reduce((list, arrow) => list.concat(arrow.force), []);
-    specs = specs.concat(byUnit(phrase("forces-on", body.name), columns));
-  }
-  specs = specs.concat(byUnit(phrase("states"), run.states));
-  specs.push({ title: phrase("energy"), unit: run.units.energy, size: 1, columns: [kinetic, potential, work] });
-  specs.push({ title: phrase("residual"), unit: run.units.energy, size: 1, columns: [residual] });
-  return specs;
+  const all = (member) => bodies.flatMap((body) => body[member]), energy = { unit: run.units.energy, size: 1 };
+  return [
+    ...byUnit(phrase("coordinates"), all("coordinates"), true), ...byUnit(phrase("velocities"), all("rates"), true),
+    ...bodies.flatMap((body) => byUnit(phrase("forces-on", body.name), body.arrows.flatMap((arrow) => arrow.force))),
+    ...byUnit(phrase("states"), run.states),
+    { title: phrase("energy"), ...energy, columns: run.energy.slice(0, 3) }, { title: phrase("residual"), ...energy, columns: run.energy.slice(3) },
+  ];
 }
 
 // The rows of a window; if they are too many, the least and greatest values in parts of it. `size`: of the displayed
@@ -75,9 +67,9 @@ function chartRows(columns, from, to, size = 1) {
     while (next < last && times[next] < end) next++;
     const limits = columns.map((c) => {
       const [low, high] = extremes(c, start, end, begin, next - 1);
-      return low <= high ? [low, high] : [valueAt(c, start, rowAt(start)), valueAt(c, end, rowAt(end))];
+      return low <= high ? [low, high] : [valueAt(c, start), valueAt(c, end)];
     });
-    const first = columns.map((c) => (valueAt(c, start, rowAt(start)) <= valueAt(c, end, rowAt(end)) ? 0 : 1));
+    const first = columns.map((c) => (valueAt(c, start) <= valueAt(c, end) ? 0 : 1));
     rows.push([start + width / 4, ...limits.map((limit, i) => limit[first[i]] / size)]);
     rows.push([start + width * 3 / 4, ...limits.map((limit, i) => limit[1 - first[i]] / size)]);
   }
@@ -85,23 +77,20 @@ function chartRows(columns, from, to, size = 1) {
 }
 
 function drawMarks(context, area, graph) {
-  const visible = [];
-  eventTimes.forEach((t, i) => { if (t >= plotWindow.from && t <= plotWindow.to) visible.push(i); });
-  const switches = visible.filter((i) => eventLabel(i).kind === "switch").length;
-  const display = visible.length > 60 && switches < visible.length ? visible.filter((i) => eventLabel(i).kind !== "switch") : visible;
+  const visible = [...eventTimes.keys()].filter((i) => eventTimes[i] >= plotWindow.from && eventTimes[i] <= plotWindow.to);
+  const others = visible.filter((i) => eventLabel(i).kind !== "switch"), display = visible.length > 60 && others.length ? others : visible;
   const every = Math.ceil(display.length / 300);
-  context.save();
-  context.setLineDash([3, 3]);
-  context.strokeStyle = tone.soft;
-  context.globalAlpha = 0.6;
+  const moving = pen;
+  pen = context;
+  pen.save();
+  pen.globalAlpha = 0.6;
   for (let k = 0; k < display.length; k += every) {
     const x = Math.round(graph.toDomXCoord(eventTimes[display[k]])) + 0.5;
-    context.beginPath();
-    context.moveTo(x, area.y);
-    context.lineTo(x, area.y + area.h);
-    context.stroke();
+    path([[x, area.y], [x, area.y + area.h]]);
+    strokeWith(tone.soft, 1, [3, 3]);
   }
-  context.restore();
+  pen.restore();
+  pen = moving;
 }
 
 function setWindow(from, to) {
@@ -131,7 +120,7 @@ function emptiness(spec) {
   const most = Math.max(...spec.columns.map(sizeOf)), energies = Math.max(...run.energy.slice(0, 3).map(sizeOf));
   if (spec.columns.every((c) => sizeOf(c) <= roundingOf(run.columns[c].u))) return phrase("zero-throughout");
   const residual = spec.columns.length === 1 && spec.columns[0] === run.energy[3];
-  return residual && most < 1e-9 * energies ? phrase("of-energies", `${show(most, 2)} ${unit(spec.unit)}`, show(most / energies, 1)) : "";
+  return residual && most < 1e-9 * energies ? phrase("of-energies", measured(most, spec.unit, 2), show(most / energies, 1)) : "";
 }
 
 // The name and value of a curve; a click hides or shows the curve.
@@ -154,18 +143,18 @@ function makeGraph(chart) {
   const { spec, holder } = chart, curves = curvesOf(spec.columns), names = spec.columns.map((c) => run.columns[c].n);
   chart.graph = new Dygraph(holder, chartRows(spec.columns, plotWindow.from, plotWindow.to, spec.size), {
     labels: ["t", ...names],
-    colors: coloursOf(spec),
+    ...looksOf(spec),
     series: Object.fromEntries(names.map((name, i) => [name, { strokePattern: curves[i].dash[0] }])),
     visibility: chart.hidden.map((hidden) => !hidden),
     dateWindow: [plotWindow.from, plotWindow.to],
     strokeWidth: 1.5,
+    resizable: "passive", // with its element, whose width depends on the plots beside it
     legend: "never",
     axisLabelWidth: 70,
-    gridLineColor: tone.line,
-    axisLineColor: tone.soft,
     highlightCircleSize: 3,
     axes: { x: { axisLabelFormatter: (t) => show(t), valueFormatter: (t) => show(t) }, y: { axisLabelFormatter: (value) => show(value) } },
     underlayCallback: drawMarks,
+    drawCallback: placeCursors,
     zoomCallback: (from, to) => setWindow(Math.max(from, run.start), Math.min(to, run.end)),
     highlightCallback: (event, t) => { plotWindow.hover = t; refresh(); },
     unhighlightCallback: () => { plotWindow.hover = null; refresh(); },
@@ -192,7 +181,6 @@ function makeChart(spec) {
   box.addEventListener("toggle", () => {
     if (!box.isConnected) return; // the event comes later
     if (box.open && !chart.graph) makeGraph(chart);
-    else if (box.open) chart.graph.resize();
     if (box.open && chart.stale) redrawChart(chart);
     refresh();
   });
@@ -221,8 +209,7 @@ function makeCharts(bodies) {
 function restyleCharts(ratio) {
   for (const { graph, spec, box } of charts) {
     if (!graph || !box.open) continue;
-    graph.updateOptions({ colors: coloursOf(spec), gridLineColor: tone.line, axisLineColor: tone.soft,
-      pixelRatio: ratio }, true);
+    graph.updateOptions({ ...looksOf(spec), pixelRatio: ratio }, true);
     graph.width_ = 0; // forces the graph to update its size
     graph.resize();
   }
@@ -241,9 +228,8 @@ function placeCursors() {
 
 // The values at time t beside the plots' titles.
 function showValues(t) {
-  const row = rowAt(t);
   for (const { spec, values, unseen } of charts) {
     if (unseen) continue;
-    spec.columns.forEach((c, i) => write(values[i], `${quantity(run.columns[c].n)} = ${show(readAt(c, t, row) / spec.size)} ${unit(spec.unit)}`));
+    spec.columns.forEach((c, i) => write(values[i], `${quantity(run.columns[c].n)} = ${measured(readAt(c, t) / spec.size, spec.unit, 6)}`));
   }
 }

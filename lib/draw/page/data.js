@@ -14,6 +14,7 @@ function takeRun(data) {
   floats = new Float32Array(decode(run.floats));
   envelope = new Float32Array(decode(run.envelope));
   times = doubles.subarray(0, run.rows);
+  latest.t = NaN;
   roundings.clear();
   run.columns.forEach((column, index) => {
     column.index = index;
@@ -26,9 +27,24 @@ function takeRun(data) {
   // a column whose rate is another column is interpolated with its slopes
   run.bodies.forEach((body, index) => {
     body.index = index;
+    body.arm = Math.hypot(...body.G);
     body.coordinates.forEach((c, k) => { run.columns[c].slope = body.rates[k]; });
     body.rates.forEach((c, k) => { run.columns[c].slope = body.accelerations[k]; });
   });
+}
+
+function clamp(value, low, high) {
+  return Math.min(Math.max(value, low), high);
+}
+
+// The least and greatest of many values.
+function bounds(values) {
+  let low = Infinity, high = -Infinity;
+  for (const value of values) {
+    if (value < low) low = value;
+    if (value > high) high = value;
+  }
+  return [low, high];
 }
 
 // a + b times the value of another column, or zero if the sum is at round-off level.
@@ -44,13 +60,17 @@ function cell(index, row) {
   return column.of === undefined ? column.c : combined(column, cell(column.of, row));
 }
 
+const latest = { t: NaN, row: 0 }; // many columns are read at one time
+
 // The last row at or before t: of the two rows of an event the second one.
 function rowAt(t) {
   let low = 0, high = run.rows - 1;
+  if (t === latest.t) return latest.row;
   while (low < high) {
     const middle = (low + high + 1) >> 1;
     if (times[middle] <= t) low = middle; else high = middle - 1;
   }
+  Object.assign(latest, { t, row: low });
   return low;
 }
 
@@ -82,13 +102,17 @@ function cubic(index, row, t) {
   return sum;
 }
 
-// The value of a column at time t; `row` is rowAt(t).
-function valueAt(index, t, row) {
-  const column = run.columns[index];
-  if (column.of !== undefined) return combined(column, valueAt(column.of, t, row));
+// The value of a column at time t.
+function valueAt(index, t) {
+  const column = run.columns[index], row = rowAt(t);
+  if (column.of !== undefined) return combined(column, valueAt(column.of, t));
   if (!column.data) return column.c;
   if (t <= times[row] || row + 1 >= run.rows) return column.data[row];
   return column.slope === undefined ? cubic(index, row, t) : hermite(index, column.slope, row, t);
+}
+
+function valuesAt(columns, t) {
+  return columns.map((c) => valueAt(c, t));
 }
 
 // The least and greatest value of a column in [from, to], of the rows and of the envelope.
@@ -100,30 +124,23 @@ function extremes(index, from, to, firstRow, lastRow) {
     return a < b ? [a, b] : [b, a];
   }
   if (!column.data) return [column.c, column.c];
-  let low = Infinity, high = -Infinity;
-  for (let i = firstRow; i <= lastRow; i++) {
-    const value = column.data[i];
-    if (value < low) low = value;
-    if (value > high) high = value;
-  }
-  if (!run.thinned) return [low, high];
+  const limits = bounds(column.data.subarray(firstRow, lastRow + 1));
+  if (!run.thinned) return limits;
   const slot = column.d === undefined ? run.doubleColumns + column.f : column.d;
   const all = run.doubleColumns + run.floatColumns;
   // a piece of the envelope counts if its start is in the interval
   for (let k = Math.ceil(from / run.bucket); k < run.buckets && k * run.bucket < to; k++) {
     const at = 2 * (k * all + slot);
-    if (envelope[at] < low) low = envelope[at];
-    if (envelope[at + 1] > high) high = envelope[at + 1];
+    limits.push(envelope[at], envelope[at + 1]);
   }
-  return [low, high];
+  return bounds(limits);
 }
 
 // The largest magnitude of a column in the run.
 function sizeOf(index) {
   const column = run.columns[index];
   if (column.size === undefined) {
-    const [low, high] = extremes(index, run.start, run.end, 0, run.rows - 1);
-    column.size = Math.max(Math.abs(low), Math.abs(high), 0);
+    column.size = Math.max(...extremes(index, run.start, run.end, 0, run.rows - 1).map(Math.abs), 0);
   }
   return column.size;
 }
@@ -134,18 +151,15 @@ const roundings = new Map();
 
 function roundingOf(text) {
   if (!roundings.has(text)) {
-    let most = text === "rad" ? 1 : 0;
-    run.columns.forEach((column, index) => {
-      if (column.u === text && Number.isFinite(sizeOf(index))) most = Math.max(most, sizeOf(index));
-    });
-    roundings.set(text, 64 * Number.EPSILON * most);
+    const sizes = run.columns.filter((column) => column.u === text).map(({ index }) => sizeOf(index)).filter(Number.isFinite);
+    roundings.set(text, 64 * Number.EPSILON * Math.max(text === "rad" ? 1 : 0, ...sizes));
   }
   return roundings.get(text);
 }
 
 // The displayed value of a column at time t: zero at round-off level.
-function readAt(index, t, row) {
-  const value = valueAt(index, t, row);
+function readAt(index, t) {
+  const value = valueAt(index, t);
   return Math.abs(value) <= roundingOf(run.columns[index].u) ? 0 : value;
 }
 

@@ -30,24 +30,24 @@ function movePointer(event) {
 function connectEye() {
   for (const [id, factor] of [["zoom-in", 1.25], ["zoom-out", 0.8]]) listen(id, "click", () => eyeOn(() => zoomBy(factor, viewMiddle())));
   listen("zoom-all", "click", () => { element("follow").checked = false; eyeOn(showWhole); });
-  canvas.addEventListener("dblclick", () => eyeOn(showWhole));
+  listen("scene", "dblclick", () => eyeOn(showWhole));
   // the wheel without a modifier scrolls the page, unless the scene has the focus
   canvas.addEventListener("wheel", (event) => {
     if (!event.ctrlKey && document.activeElement !== canvas) return;
     event.preventDefault();
     eyeOn(() => zoomBy(Math.exp(-event.deltaY / 400), [event.offsetX, event.offsetY]));
   }, { passive: false });
-  canvas.addEventListener("pointerdown", (event) => {
+  listen("scene", "pointerdown", (event) => {
     pressed = fingers.size ? null : [event.offsetX, event.offsetY];
     fingers.set(event.pointerId, [event.offsetX, event.offsetY]);
     canvas.setPointerCapture(event.pointerId);
   });
-  canvas.addEventListener("pointermove", movePointer);
-  canvas.addEventListener("pointerup", (event) => {
+  listen("scene", "pointermove", movePointer);
+  listen("scene", "pointerup", (event) => {
     // a tap: the pointer has hardly moved
     if (pressed && Math.hypot(event.offsetX - pressed[0], event.offsetY - pressed[1]) < 6) pick(arrowAt(pressed, event.pointerType === "mouse" ? 8 : 24));
   });
-  for (const kind of ["pointerup", "pointercancel"]) canvas.addEventListener(kind, (event) => fingers.delete(event.pointerId));
+  for (const kind of ["pointerup", "pointercancel"]) listen("scene", kind, (event) => fingers.delete(event.pointerId));
   // the canvas follows the size of its element
   new ResizeObserver(() => { if (!paper.on) { eyeOn(fit); reachFormulas(); } }).observe(canvas);
 }

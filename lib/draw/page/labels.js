@@ -16,13 +16,13 @@ function beginLabels() {
 }
 
 // key: identifies the labelled object; [ux, uy]: preferred direction on the canvas.
-function wantLabel(key, text, x, y, ux, uy, colour, plain) {
-  labels.wanted.push({ key, text, x, y, ux, uy, colour, plain });
+function wantLabel(key, text, x, y, ux, uy, colour) {
+  labels.wanted.push({ key, text, x, y, ux, uy, colour });
 }
 
-// A line that labels should not lie on.
-function avoidLine(x1, y1, x2, y2) {
-  labels.lines.push([x1, y1, x2, y2]);
+// A line [x1, y1, x2, y2] or circle [x, y, radius] that labels should not lie on.
+function avoidLine(...line) {
+  labels.lines.push(line);
 }
 
 // A box that no label may lie on.
@@ -40,6 +40,12 @@ function textWidth(text) {
     textWidths.set(text, pen.measureText(text).width);
   }
   return textWidths.get(text);
+}
+
+// True if the circle crosses the box: one of its points is nearer than the radius, and one is farther.
+function circleCrosses([x, y, radius], { left, right, top, bottom }) {
+  const near = Math.hypot(Math.max(left - x, 0, x - right), Math.max(top - y, 0, y - bottom));
+  return near < radius && radius < Math.hypot(Math.max(x - left, right - x), Math.max(y - top, bottom - y));
 }
 
 // True if the line crosses the box (Liang-Barsky clipping).
@@ -89,28 +95,26 @@ function choosePlace(label) {
     const box = boxAt(label, width, spot.turn, spot.ring);
     if (!isFree(box)) continue;
     let price = spot.price + stay;
-    if (!crowded) for (const line of labels.lines) if (crosses(line, box)) price += 14;
+    if (!crowded) for (const line of labels.lines) if ((line.length < 4 ? circleCrosses : crosses)(line, box)) price += 14;
     if (price < least) { least = price; best = { spot, box }; }
   }
   return best;
 }
 
+// A text with a rim of the colour of paper; its left end and middle line are given.
+function writeText(text, x, y, colour) {
+  Object.assign(pen, { font: labelFont, textAlign: "left", textBaseline: "middle", lineWidth: 3, strokeStyle: tone.paper, fillStyle: colour });
+  pen.setLineDash([]);
+  pen.strokeText(text, x, y);
+  pen.fillText(text, x, y);
+}
+
 function writeLabel(label, box, ring) {
-  const y = (box.top + box.bottom) / 2;
   if (ring > 1) {
-    path([[label.x, label.y], [Math.min(Math.max(label.x, box.left), box.right), Math.min(Math.max(label.y, box.top), box.bottom)]]);
+    path([[label.x, label.y], [clamp(label.x, box.left, box.right), clamp(label.y, box.top, box.bottom)]]);
     strokeWith(tone.soft, 0.8);
   }
-  pen.font = labelFont;
-  pen.textAlign = "left";
-  pen.textBaseline = "middle";
-  pen.lineJoin = "round";
-  pen.lineWidth = 3;
-  pen.setLineDash([]);
-  pen.strokeStyle = tone.paper;
-  pen.strokeText(label.text, box.left, y + 1);
-  pen.fillStyle = label.colour;
-  pen.fillText(label.text, box.left, y + 1);
+  writeText(label.text, box.left, (box.top + box.bottom) / 2 + 1, label.colour);
 }
 
 function placeLabels() {

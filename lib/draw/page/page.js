@@ -29,21 +29,20 @@ function chosenBodies() {
 // ---- tables
 
 function addRow(table, cells, css = "") {
-  const row = table.insertRow();
-  row.className = css;
-  for (const [text, number] of cells) {
-    const td = row.insertCell();
-    td.append(text);
-    if (number) td.className = "number";
-  }
+  const row = make("tr", css, ...cells.map(([text, number]) => make("td", number ? "number" : "", text)));
+  table.append(row);
   return row;
 }
 
-// A row with a time-dependent number: value(t, row).
+// A time-dependent number: value(t).
+function changingText(value, format = show) {
+  const text = document.createTextNode("");
+  changing.push([text, value, format]);
+  return text;
+}
+
 function addChanging(table, label, value, units, css) {
-  const row = addRow(table, [[label], ["", true], [units]], css);
-  changing.push([row.cells[1].appendChild(document.createTextNode("")), value]);
-  return row;
+  return addRow(table, [[label], [changingText(value), true], [units]], css);
 }
 
 // Give a term of an equation the colour of its arrow, and let it be found by that.
@@ -56,12 +55,12 @@ function markTerm(node, equation, name) {
 }
 
 function valueIn(index) {
-  return (t, row) => readAt(index, t, row);
+  return (t) => readAt(index, t);
 }
 
 // The sum of terms, zero at the round-off level of floats.
-function sumOf(terms, t, row) {
-  const values = terms.map(([, index]) => readAt(index, t, row));
+function sumOf(terms, t) {
+  const values = terms.map(([, index]) => readAt(index, t));
   const sum = values.reduce((a, b) => a + b, 0), largest = Math.max(0, ...values.map(Math.abs));
   return Math.abs(sum) < 5e-7 * largest ? 0 : sum;
 }
@@ -70,7 +69,7 @@ function sumOf(terms, t, row) {
 function inertiaIn(equation) {
   if (equation.mass === undefined) return () => equation.value;
   const mass = valueIn(equation.mass);
-  return (t, row) => equation.value * mass(t, row) / equation.massAtStart;
+  return (t) => equation.value * mass(t) / equation.massAtStart;
 }
 
 // The displayed terms: in symbols those with a symbol, else those that are nonzero at some time.
@@ -102,18 +101,13 @@ function inSymbols(equation) {
 // The equation with the numbers at the cursor's time.
 function inNumbers(equation) {
   const row = math("mrow");
-  const number = (value, format) => {
-    const text = document.createTextNode("");
-    changing.push([text, value, format]);
-    return math("mn", text);
-  };
+  const number = (value, format = (x) => show(x, 4)) => math("mn", changingText(value, format));
   const upright = (units) => math("mtext", `\u2009${unit(units)}`);
-  row.append(number(inertiaIn(equation), (value) => show(value, 4)), upright(equation.inertiaUnit), math("mo", "·"), math("mo", "("),
-    number(valueIn(equation.acceleration), (value) => show(value, 4)), upright(equation.accelerationUnit), math("mo", ")"), math("mo", "="));
+  row.append(number(inertiaIn(equation)), upright(equation.inertiaUnit), math("mo", "·"), math("mo", "("),
+    number(valueIn(equation.acceleration)), upright(equation.accelerationUnit), math("mo", ")"), math("mo", "="));
   const terms = writtenTerms(equation);
   terms.forEach(([name, index], i) => {
-    const sign = document.createTextNode("");
-    changing.push([sign, valueIn(index), (value) => (value < 0 ? "−" : i ? "+" : "")]);
+    const sign = changingText(valueIn(index), (value) => (value < 0 ? "−" : i ? "+" : ""));
     row.append(termSign(i === 0, sign), markTerm(number(valueIn(index), (value) => show(Math.abs(value), 4)), equation, name));
   });
   if (!terms.length) row.append(math("mn", "0"));
@@ -128,7 +122,7 @@ function equationTable(equation) {
   if (symbols) box.append(symbols, inNumbers(equation));
   else box.append(mathLine(math("mrow", ...mathOf(`${equation.inertia} ${equation.accelerationName}`), math("mo", "="), math("mo", "∑"))));
   for (const [term, index] of equation.terms) markTerm(addChanging(table, term, valueIn(index), units), equation, term);
-  addChanging(table, phrase("sum"), (t, row) => sumOf(equation.terms, t, row), units, "sum");
+  addChanging(table, phrase("sum"), (t) => sumOf(equation.terms, t), units, "sum");
   addChanging(table, inMath(equation.inertia), inertiaIn(equation), unit(equation.inertiaUnit));
   addChanging(table, inMath(equation.accelerationName), valueIn(equation.acceleration), unit(equation.accelerationUnit));
   box.append(table);
@@ -156,10 +150,8 @@ function makeTables(bodies) {
 }
 
 function showTables(t) {
-  const row = rowAt(t), clock = `t = ${show(t)} s`;
-  element("equations-time").textContent = clock;
-  element("ledger-time").textContent = clock;
-  for (const [text, value, format] of changing) write(text, (format || show)(value(t, row)));
+  for (const id of ["equations-time", "ledger-time"]) element(id).textContent = `t = ${show(t)} s`;
+  for (const [text, value, format] of changing) write(text, format(value(t)));
 }
 
 // Formulas that are too long scroll, by keys as well.
@@ -186,7 +178,7 @@ function showCost() {
 
 function eventText(i) {
   const label = eventLabel(i);
-  return `t = ${show(eventTimes[i])} s  ${label.body} ${label.kind}: ${run.events.details[i] || label.name}`;
+  return `t = ${show(eventTimes[i])} s  ${label.body} ${label.kind.replace(/_/g, " ")}: ${unit(run.events.details[i] || label.name)}`;
 }
 
 function listEvents() {
@@ -195,7 +187,6 @@ function listEvents() {
   for (const id of ["events", "events-title", "event-before", "event-next"]) element(id).hidden = run.events.count === 0;
   eventTimes.slice(0, most).forEach((t, i) => {
     const button = makeButton(eventText(i));
-    button.dataset.index = i;
     button.addEventListener("click", () => seek(t));
     list.append(button);
   });
@@ -219,8 +210,8 @@ function refresh(everything = true) {
   element("scrub").value = player.t;
   element("clock").textContent = `${show(player.t)} s`;
   if (everything || before - player.written > pause) {
-    showValues(plotWindow.hover === null ? player.t : plotWindow.hover);
-    showTables(plotWindow.hover === null ? player.t : plotWindow.hover);
+    showValues(plotWindow.hover ?? player.t);
+    showTables(plotWindow.hover ?? player.t);
     showCard(player.t);
     if (!player.playing) write(element("words").firstChild, sceneInWords(player.t, chosenBodies()));
     player.written = before;
@@ -230,7 +221,7 @@ function refresh(everything = true) {
 }
 
 function seek(t) {
-  player.t = Math.min(Math.max(t, run.start), run.end);
+  player.t = clamp(t, run.start, run.end);
   refresh();
 }
 
@@ -271,7 +262,8 @@ function changeSpeed(by) {
 // The speed nearest to real time at which the run takes between 2 and 25 s.
 function usualSpeed() {
   const length = run.end - run.start, good = speeds.filter((speed) => length / speed >= 2 && length / speed <= 25);
-  return good.reduce((best, speed) => (Math.abs(Math.log(speed)) < Math.abs(Math.log(best)) ? speed : best), good[0] || 1);
+  const away = (speed) => Math.abs(Math.log(speed));
+  return good.sort((a, b) => away(a) - away(b))[0] || 1;
 }
 
 function seekEvent(direction) {
@@ -335,12 +327,10 @@ function showRun(data) {
 }
 
 // True if the focused element itself uses the key.
-function takesKey(target, key) {
-  if (target.isContentEditable || ["SELECT", "TEXTAREA"].includes(target.tagName)) return true;
-  if (["BUTTON", "SUMMARY"].includes(target.tagName)) return key === " ";
-  if (target.tagName !== "INPUT") return false;
-  if (target.type === "checkbox") return key === " ";
-  return target.type !== "range" || key.startsWith("Arrow") || key === "Home" || key === "End";
+function takesKey({ isContentEditable, tagName, type }, key) {
+  if (isContentEditable || ["SELECT", "TEXTAREA"].includes(tagName)) return true;
+  if (["BUTTON", "SUMMARY"].includes(tagName) || type === "checkbox") return key === " ";
+  return tagName === "INPUT" && (type !== "range" || key.startsWith("Arrow") || key === "Home" || key === "End");
 }
 
 // Write all texts in the language chosen.
@@ -392,5 +382,5 @@ seekHash();
 
 window.fbd = {
   seek, setPlaying, setSpeed, zoom: setWindow, player, drawn, labels, get run() { return run; },
-  value: (columnName, t) => valueAt(run.columns.findIndex((column) => column.n === columnName), t, rowAt(t)),
+  value: (columnName, t) => valueAt(run.columns.findIndex((column) => column.n === columnName), t),
 };

@@ -13,7 +13,7 @@ function arrowBy(key) {
 function distanceTo([x1, y1, x2, y2, arc], x, y) {
   if (arc) return Math.abs(Math.hypot(x - (x1 + x2) / 2, y - (y1 + y2) / 2) - (x2 - x1) / 2);
   const dx = x2 - x1, dy = y2 - y1, s = ((x - x1) * dx + (y - y1) * dy) / (dx * dx + dy * dy);
-  const along = Math.min(Math.max(s, 0), 1);
+  const along = clamp(s, 0, 1);
   return Math.hypot(x - x1 - along * dx, y - y1 - along * dy);
 }
 
@@ -48,7 +48,7 @@ function pick(key) {
   const [x] = drawn.arrows.find((arrow) => arrow[5] === key) || [0];
   element("card").className = x > view.width / 2 ? "left" : ""; // beside the arrow
   if (term) box.scrollTop += term.getBoundingClientRect().top - box.getBoundingClientRect().top - 40;
-  element("said").textContent = found ? `${found.body.name}: ${arrowInWords(found.arrow, now(), rowAt(now()))}` : "";
+  element("said").textContent = found ? `${found.body.name}: ${arrowInWords(found.arrow, now())}` : "";
   refresh();
 }
 
@@ -61,7 +61,7 @@ function showCard(t) {
   const found = arrowBy(picked.shown), table = element("card-table");
   element("card").hidden = !found;
   if (!found) return;
-  const { arrow, body } = found, row = rowAt(t), [fx, fy, , , couple] = arrow.arrow, read = (c) => readAt(c, t, row);
+  const { arrow, body } = found, [fx, fy, , , couple] = arrow.arrow, read = (c) => readAt(c, t);
   const { force, moment, energy } = run.units, [x, y] = [read(fx), read(fy)];
   const lines = [[phrase("magnitude"), Math.hypot(x, y), force], ["x", x, force], ["y", y, force]];
   if (sizeOf(couple) > roundingOf(moment)) lines.push([phrase("moment"), read(couple), moment]);
@@ -81,6 +81,6 @@ function connectPick() {
     const term = event.target.closest("[data-arrow]");
     if (term) pick(term.getAttribute("data-arrow"));
   });
-  canvas.addEventListener("pointerleave", () => light(""));
+  listen("scene", "pointerleave", () => light(""));
   listen("card-close", "click", () => { pick(""); canvas.focus(); });
 }

@@ -8,6 +8,12 @@ function path(points, closed) {
   if (closed) pen.closePath();
 }
 
+// A path that labels should not lie on.
+function outline(points, closed) {
+  path(points, closed);
+  points.forEach((to, i) => { if (i || closed) avoidLine(...points.at(i - 1), ...to); });
+}
+
 function disc([x, y], radius) {
   pen.beginPath();
   pen.arc(x, y, radius, 0, 2 * Math.PI);
@@ -34,9 +40,14 @@ function strokeWith(colour, width, dash) {
 
 const hatchStep = 9, hatchDepth = 11;
 
+// The distance of two points, and the direction from the first one to the second.
+function wayTo([x, y], [endX, endY]) {
+  const length = Math.hypot(endX - x, endY - y), by = length || 1;
+  return [length, (endX - x) / by, (endY - y) / by];
+}
+
 function hatch(from, to, nx, ny) {
-  const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
-  const ux = (to[0] - from[0]) / length, uy = (to[1] - from[1]) / length;
+  const [length, ux, uy] = wayTo(from, to);
   const under = ([x, y]) => [x + hatchDepth * nx, y + hatchDepth * ny];
   path([from, to, under(to), under(from)], true);
   fillWith(tone.ground);
@@ -51,14 +62,34 @@ function hatch(from, to, nx, ny) {
   strokeWith(tone.soft, 1.8);
 }
 
-// Fill polygons of the ground, hatched; an outline is drawn only where it is not inside another polygon.
+// A wall at a point of the canvas, hatched along the unit vector [nx, ny].
+function drawWall([x, y], [nx, ny], half = 16) {
+  hatch([x - half * ny, y + half * nx], [x + half * ny, y - half * nx], nx, ny);
+}
+
+// An arrow below a surface that runs, `away` along it from its middle; both ways if its speed varies.
+function drawRunning({ e: [ex, ey], middle, speed }, away) {
+  if (speed === undefined) return;
+  const at = [middle[0] + away * ex, middle[1] + away * ey];
+  for (const way of speed === null ? [1, -1] : [Math.sign(speed)]) plainArrow(at, [way * ex, way * ey], 30, tone.soft);
+}
+
+// Keep a surface of the ground for shadows and the label of its speed, which are below its `middle`.
+function groundAt(from, to, e, n, speed, length) {
+  const ground = { from, e, n, speed, length, middle: from.map((x, k) => (x + to[k]) / 2 - 20 * n[k]) };
+  view.grounds.push(ground);
+  return ground;
+}
+
+// Fill polygons of the ground, hatched; an outline is drawn only where it is not inside another polygon. A surface that
+// runs does so counter-clockwise.
 function drawGround(polygons) {
-  const all = polygons.map((corners) => corners.map(toScreen)), far = view.width + view.height;
-  for (const corners of all) {
+  const all = polygons.map(({ corners, speed }) => ({ corners: corners.map(toScreen), speed })), far = view.width + view.height;
+  for (const { corners } of all) {
     path(corners, true);
     strokeWith(tone.soft, 3.6);
   }
-  for (const corners of all) {
+  for (const { corners, speed } of all) {
     pen.save();
     path(corners, true);
     fillWith(tone.ground);
@@ -72,9 +103,8 @@ function drawGround(polygons) {
     pen.restore();
     const area = corners.reduce((sum, [x, y], i) => sum + x * corners.at(i - 1)[1] - y * corners.at(i - 1)[0], 0), outward = Math.sign(area);
     corners.forEach((to, i) => {
-      const from = corners.at(i - 1), length = Math.hypot(to[0] - from[0], to[1] - from[1]) || 1;
-      const e = [(to[0] - from[0]) / length, (to[1] - from[1]) / length];
-      view.grounds.push({ from, e, n: [-outward * e[1], outward * e[0]], length });
+      const from = corners.at(i - 1), [length, ...e] = wayTo(from, to), n = [-outward * e[1], outward * e[0]];
+      drawRunning(groundAt(from, to, e, n, speed && outward * speed, length), 0);
     });
   }
 }
@@ -120,13 +150,13 @@ function acrossCanvas(through, along, normal, down) {
   return [[bx + first * ex, by + first * ey], [bx + (k + far) * ex, by + (k + far) * ey]];
 }
 
-function drawSurface(through, along, normal, down) {
+function drawSurface(through, along, normal, down, speed) {
   const ends = acrossCanvas(through, along, normal, down);
-  const ground = { from: ends[0], e: [along[0], -along[1]], n: [normal[0], -normal[1]] };
-  const isSame = ({ from, n }) => Math.hypot(n[0] - ground.n[0], n[1] - ground.n[1], from[0] - ends[0][0], from[1] - ends[0][1]) < 0.5;
+  const n = [normal[0], -normal[1]], isSame = (other) => wayTo(other.n, n)[0] + wayTo(other.from, ends[0])[0] < 0.5;
   if (view.grounds.some(isSame)) return; // contacts of several bodies with one line
   hatch(...ends, -normal[0], normal[1]);
-  view.grounds.push(ground);
+  const ground = groundAt(...ends, [along[0], -along[1]], n, speed);
+  for (let away = -1600; away <= 1600; away += 160) drawRunning(ground, away);
 }
 
 // The distance on the canvas of the surface of a slide from the line of the body's x; 0 without a surface.
@@ -136,24 +166,24 @@ function surfaceBelow(body) {
 
 // Draw the surface under the body, or the line on which it moves.
 function drawLine(body) {
-  const { through, along, normal, surface } = body.line;
+  const { through, along, normal, surface, speed } = body.line;
   if (surface) {
-    drawSurface(through, along, normal, surfaceBelow(body));
+    drawSurface(through, along, normal, surfaceBelow(body), speed);
   } else {
     path(acrossCanvas(through, along, normal, 0));
     strokeWith(tone.line, 1, [6, 4]);
   }
 }
 
-// Draw the curve of a track in the frame of its carrier; on the ground (null) in the world.
+// Draw the curve of a track in the frame of its carrier.
 function drawTrack(body, frame) {
-  path(body.track.points.map((point) => toScreen(frame ? place(frame, ...point) : point)));
+  path(body.track.points.map((point) => onCanvas(frame, point)));
   strokeWith(tone.hatch, 6);
   strokeWith(tone.soft, 1.8);
 }
 
 function drawAxis(body) {
-  const hangs = Math.hypot(...body.G) > 0 && body.G[1] <= 0.3 * Math.hypot(...body.G);
+  const hangs = body.arm > 0 && body.G[1] <= 0.3 * body.arm;
   drawBearing(...toScreen(body.axis), hangs ? -1 : 1);
 }
 
@@ -162,7 +192,7 @@ function drawBearing(x, y, d) {
   path([[x, y], [x - 9, y + 15 * d], [x + 9, y + 15 * d]], true);
   fillWith(tone.paper);
   strokeWith(tone.soft, 1.5);
-  hatch([x - 18, y + 15 * d], [x + 18, y + 15 * d], 0, d);
+  drawWall([x, y + 15 * d], [0, d], 18);
 }
 
 function drawDamper(a, b, at) {
@@ -175,6 +205,13 @@ function drawDamper(a, b, at) {
   }
 }
 
+// A cylinder at the first point, with its rod at the second one.
+function drawRam(a, b, at) {
+  path([a, b]);
+  strokeWith(tone.edge, 3);
+  drawPlate([at(0.15, 7), at(0.65, 7), at(0.65, -7), at(0.15, -7)], tone.ground);
+}
+
 // A coil of nine turns seen from the side: a circle that moves along the spring.
 function drawSpring(a, b, at, length) {
   const turns = 9, round = 14, radius = Math.min(9, length / 6), points = [a];
@@ -183,45 +220,35 @@ function drawSpring(a, b, at, length) {
     points.push(at(0.12 + 0.76 * i / (turns * round) + 0.5 * radius / length * (Math.cos(turn) - 1), radius * Math.sin(turn)));
   }
   path([...points, b]);
-  pen.lineJoin = "round";
   strokeWith(tone.edge, 3);
   strokeWith(tone.line, 1);
-  pen.lineJoin = "miter";
 }
 
 function drawLink(link, frames) {
-  const end = place(frames[link.body], ...link.point), shift = link.offset || [0, 0];
-  const a = toScreen(link.partner < 0 ? link.anchor : place(frames[link.partner], ...link.anchor)), b = toScreen([end[0] + shift[0], end[1] + shift[1]]);
-  const dx = b[0] - a[0], dy = b[1] - a[1], length = Math.hypot(dx, dy);
-  if (!(length > 1)) return;
-  const at = (along, across) => [a[0] + dx * along - dy / length * across, a[1] + dy * along + dx / length * across];
-  if (link.kind === "damper") drawDamper(a, b, at); else drawSpring(a, b, at, length);
-  if (link.wall) { // across the slide, hatched on the far side
-    const wx = 14 * link.wall[0], wy = -14 * link.wall[1];
-    hatch([a[0] - wx, a[1] - wy], [a[0] + wx, a[1] + wy], -dx / length, -dy / length);
-    return;
-  }
-  dot(a[0], a[1], 3, tone.soft);
+  const [nx, ny] = link.wall || [0, 0], { beside = 0 } = link;
+  const end = (frame, point) => { const [x, y] = onCanvas(frame, point); return [x + beside * nx, y - beside * ny]; };
+  const a = end(frames[link.partner], link.anchor), b = end(frames[link.body], link.point);
+  const [length, ux, uy] = wayTo(a, b), at = (along, across) => [a[0] + ux * length * along - uy * across, a[1] + uy * length * along + ux * across];
+  ({ damper: drawDamper, actuator: drawRam }[link.kind] || drawSpring)(a, b, at, length);
+  avoidLine(...a, ...b);
+  if (link.wall) drawWall(a, [-ux, -uy], 14);
+  else dot(a[0], a[1], 3, tone.soft);
 }
 
 function drawStill() {
-  const moving = pen;
-  still.width = canvas.width;
-  still.height = canvas.height;
+  const moving = pen, { width, height } = canvas;
+  Object.assign(still, { width, height });
   pen = still.getContext("2d");
   pen.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
   pen.fillStyle = tone.paper;
   pen.fillRect(0, 0, view.width, view.height);
-  const lines = new Set();
   view.grounds = [];
   for (const body of run.bodies) {
-    if (body.axis && Math.hypot(...body.G) > 0) drawAxis(body);
-    if (!body.line || body.line.on >= 0) continue;
-    const same = JSON.stringify(body.line); // bodies on one surface share its drawing
-    if (!lines.has(same)) drawLine(body);
-    lines.add(same);
+    if (body.axis && body.arm > 0) drawAxis(body);
+    if (body.line?.on < 0) drawLine(body);
+    if (body.motion === "weld" && body.parent < 0) drawClamp(onCanvas(survey[0].frames[body.index], [0, 0]), body);
   }
-  for (const body of run.bodies) if (body.track && body.track.on < 0) drawTrack(body, null);
+  for (const body of run.bodies) if (body.track?.on < 0) drawTrack(body);
   drawStillTies();
   pen = moving;
 }
@@ -233,16 +260,23 @@ function tintOf(body, part = "tints") {
   return tone[part][body.index % curveCount];
 }
 
-function drawWheel(x, y, outer, inner, colour) {
-  disc([x, y], outer);
-  if (inner > 0) pen.arc(x, y, inner, 0, 2 * Math.PI, true);
+// A disc or ring; with a frame also its sectors.
+function drawWheel([x, y], outer, inner, colour, frame, marks) {
+  avoidLine(x, y, outer);
+  const trace = () => {
+    disc([x, y], outer);
+    if (inner > 0) pen.arc(x, y, inner, 0, 2 * Math.PI, true);
+  };
+  trace();
   fillWith(colour);
+  if (frame) drawSectors(x, y, outer, inner, frame, marks);
+  trace();
   strokeWith(tone.edge, 1.6);
 }
 
 // Darker sectors of a disc (two) or ring (eight), which turn with it.
 function drawSectors(x, y, outer, inner, frame, colour) {
-  const count = inner > 0 ? 8 : 2, zero = -Math.atan2(frame.s, frame.c);
+  const count = inner > 0 ? 8 : 2, zero = -frame.angle;
   pen.beginPath();
   for (let k = 0; k < count; k++) {
     const from = zero + 2 * Math.PI * k / count, to = from + Math.PI / count;
@@ -255,26 +289,21 @@ function drawSectors(x, y, outer, inner, frame, colour) {
 
 function drawShape(body, frame, shape) {
   const at = (point) => toScreen(shapePoint(body, frame, point));
-  const [x, y] = at(shape.center), fill = shape.hole ? tone.paper : tintOf(body);
+  const [x, y] = at(shape.center), fill = shape.hole ? tone.paper : tintOf(body), marks = tintOf(body, "marks");
   if (shape.kind === "circle") {
-    const outer = Math.max(shape.radius * view.scale, 4), inner = (shape.inner || 0) * view.scale;
-    drawWheel(x, y, outer, inner, fill);
-    if (!shape.hole && body.motion !== "particle") drawSectors(x, y, outer, inner, frame, tintOf(body, "marks"));
-    disc([x, y], outer);
-    strokeWith(tone.edge, 1.6);
+    const turns = !shape.hole && body.motion !== "particle" && frame;
+    drawWheel([x, y], Math.max(shape.radius * view.scale, 4), (shape.inner || 0) * view.scale, fill, turns, marks);
   } else if (shape.kind === "polygon") {
-    path(shape.corners.map(at), true);
-    fillWith(fill);
-    strokeWith(tone.edge, 1.6);
+    drawPlate(shape.corners.map(at), fill);
   } else if (shape.kind === "bar") {
-    path(shape.corners.map(at));
+    outline(shape.corners.map(at));
     pen.lineCap = "round";
     strokeWith(tone.edge, 9);
     strokeWith(fill, 6);
     pen.lineCap = "butt";
   } else {
     dot(x, y, 6, tone.edge);
-    dot(x, y, 4.4, tintOf(body, "marks"));
+    dot(x, y, 4.4, marks);
   }
 }
 
@@ -285,7 +314,7 @@ function blockCorners(frame) {
 
 function drawBody(body, frame) {
   if (drawShapeless(body, frame)) return;
-  if (body.joint && body.motion === "pivot") {
+  if (body.motion === "pivot") {
     const axis = toScreen([frame.x, frame.y]);
     for (const shape of body.shapes) {
       path([axis, toScreen(shapePoint(body, frame, shape.center))]);
@@ -293,27 +322,15 @@ function drawBody(body, frame) {
     }
   }
   if (!isSized(body) && body.board) return;
-  if (!isSized(body) && body.line) { drawPlate(blockCorners(frame), body); return; }
+  if (!isSized(body) && body.line) { drawPlate(blockCorners(frame), tintOf(body)); return; }
   for (const hole of [false, true]) for (const shape of body.shapes) if (Boolean(shape.hole) === hole) drawShape(body, frame, shape);
-}
-
-// Keep labels off the bars.
-function avoidBars(frames) {
-  run.bodies.forEach((body, i) => {
-    for (const { kind, corners } of body.shapes)
-      if (kind === "bar") avoidLine(...toScreen(shapePoint(body, frames[i], corners[0])), ...toScreen(shapePoint(body, frames[i], corners[1])));
-  });
 }
 
 // Draw the path of the last rows: usually of the whole run, for a long one of a readable part.
 function drawTrace(body, t) {
   const most = 2500, pieces = 300, point = tracePoint(body), points = [];
   const start = times[Math.max(rowAt(t) - most, 0)];
-  for (let i = 0; i < pieces; i++) {
-    const when = start + (t - start) * i / pieces;
-    points.push(toScreen(place(frameAt(body, when, rowAt(when)), ...point)));
-  }
-  points.push(toScreen(place(frameAt(body, t, rowAt(t)), ...point)));
+  for (let i = 0; i <= pieces; i++) points.push(onCanvas(frameAt(body, start + (t - start) * i / pieces), point));
   path(points);
   strokeWith(tone.trace, 1.2, [4, 3]);
 }
@@ -321,30 +338,34 @@ function drawTrace(body, t) {
 // Draw everything at time t. shows: {forces, names, values, axes, velocity, trace, follow}; forces and names of
 // `chosen` or, when null, all. The view follows the chosen body, or the first one.
 function drawScene(t, shows, chosen) {
-  const row = rowAt(t), frames = run.bodies.map((body) => frameAt(body, t, row));
-  view.following = shows.follow;
+  const frames = framesAt(t);
+  beginLabels();
   if (shows.follow) follow(run.bodies[chosen || 0], frames[chosen || 0]);
   pen.drawImage(still, 0, 0, view.width, view.height);
   if (shows.trace) for (const body of run.bodies) drawTrace(body, t);
   for (const link of run.links) drawLink(link, frames);
-  for (const body of run.bodies) if (body.track && body.track.on >= 0) drawTrack(body, frames[body.track.on]);
+  for (const body of run.bodies) if (body.track?.on >= 0) drawTrack(body, frames[body.track.on]);
   drawTiesUnder(frames);
-  for (const ground of view.grounds) run.bodies.forEach((body, i) => drawShadow(ground, body, frames[i]));
+  view.grounds.forEach((ground, k) => {
+    const { n: [nx, ny], middle, speed } = ground;
+    run.bodies.forEach((body, i) => drawShadow(ground, body, frames[i]));
+    if (shows.axes && speed) wantLabel(`${k}:runs`, measured(Math.abs(speed), run.units.speed), ...middle, -nx, -ny, tone.soft);
+  });
   run.bodies.forEach((body, i) => drawBody(body, frames[i]));
-  drawTiesOver(frames, t, row);
+  drawTiesOver(frames, t);
   run.bodies.forEach((body, i) => {
+    drawStops(body, frames[body.parent], shows);
+    if (body.coil) drawSpiral(body, frames[i], t);
     if (body.motion !== "pivot") return;
-    if (body.axis && Math.hypot(...body.G) === 0) drawAxis(body);
+    if (body.axis && body.arm === 0) drawAxis(body);
     drawPin(toScreen([frames[i].x, frames[i].y]));
   });
-  beginLabels();
-  avoidBars(frames);
   if (shows.axes) drawScales(shows);
-  if (shows.axes) drawAngles(frames, t, row, chosen);
+  if (shows.axes) drawAngles(frames, t, chosen);
   run.bodies.forEach((body, i) => {
     if (chosen !== null && chosen !== i) return;
-    if (shows.forces) drawForces(body, frames[i], t, row, shows);
-    if (shows.velocity) drawVelocity(body, frames[i], t, row, shows);
+    if (shows.forces) drawForces(body, frames[i], t, shows);
+    if (shows.velocity) drawVelocity(body, frames[i], t, shows);
   });
   placeLabels();
 }

@@ -8,20 +8,21 @@
 const canvas = element("scene");
 let pen = canvas.getContext("2d");
 const still = document.createElement("canvas"); // static parts, drawn once
-const view = { scale: 1, x: 0, y: 0, width: 0, height: 0, block: 0, force: 1, moment: 1, speed: 1, zoom: 1, pan: [0, 0], following: false, colour: {},
-  grounds: [] };
-
-const tone = view.colour;
+const view = { scale: 1, block: 0, zoom: 1, pan: [0, 0], colour: {} }, tone = view.colour;
 
 // Pixels kept free: around, and below for the scales.
 const margin = 14, strip = 40;
 
-// Times over the run at which bounds, scales and traces are sampled.
-const survey = [];
+// Times over the run at which bounds, scales and traces are sampled: {t, frames of the bodies}.
+let survey = [];
 
-function frameAt(body, t, row) {
-  const angle = valueAt(body.frame[2], t, row);
-  return { x: valueAt(body.frame[0], t, row), y: valueAt(body.frame[1], t, row), c: Math.cos(angle), s: Math.sin(angle) };
+function frameAt(body, t) {
+  const [x, y, angle] = valuesAt(body.frame, t);
+  return { x, y, angle, c: Math.cos(angle), s: Math.sin(angle) };
+}
+
+function framesAt(t) {
+  return run.bodies.map((body) => frameAt(body, t));
 }
 
 // A point of the body's frame in the world; shapes are given in the frame of the file, in which `pin` is the axis.
@@ -33,6 +34,15 @@ function shapePoint(body, frame, point) {
   return place(frame, point[0] - body.pin[0], point[1] - body.pin[1]);
 }
 
+// A point of a body, or without a frame of the ground, in the world and on the canvas.
+function placed(frame, point) {
+  return frame ? place(frame, ...point) : point;
+}
+
+function onCanvas(frame, point) {
+  return toScreen(placed(frame, point));
+}
+
 function shapePoints(shape) {
   if (shape.kind !== "circle") return shape.corners || [shape.center];
   const [x, y] = shape.center, r = shape.radius;
@@ -41,15 +51,9 @@ function shapePoints(shape) {
 
 // The traced point: the end of a rod or the part of a pivoted body that is farthest from its axis, else G.
 function tracePoint(body) {
-  let best = body.G, most = -1;
-  if (body.motion !== "pivot") return best;
-  for (const shape of body.shapes) {
-    for (const point of shape.kind === "bar" ? shape.corners : [shape.center]) {
-      const x = point[0] - body.pin[0], y = point[1] - body.pin[1], far = Math.hypot(x, y);
-      if (far > most * 1.0001) { most = far; best = [x, y]; }
-    }
-  }
-  return most > 0 ? best : body.G;
+  const all = body.shapes.flatMap((shape) => (shape.kind === "bar" ? shape.corners : [shape.center])).map(([x, y]) => [x - body.pin[0], y - body.pin[1]]);
+  const far = all.reduce((best, point) => (Math.hypot(...point) > 1.0001 * Math.hypot(...best) ? point : best), [0, 0]);
+  return body.motion === "pivot" && Math.hypot(...far) > 0 ? far : body.G;
 }
 
 // The size for the scale of arrows: the maximum, or the 75 % quantile if the maximum is at least three times that;
@@ -62,66 +66,67 @@ function usualMost(values) {
 }
 
 // Place the walls of springs and dampers along a slide, which have no position in the model: above, on a level slide
-// before the least coordinate.
+// before the least coordinate; several of a body side by side, `beside` in pixels.
 function placeWalls() {
-  run.links.forEach((link, i) => {
-    if (link.anchor) return;
-    const { through, along, normal } = run.bodies[link.body].line;
-    const xs = survey.map((t) => valueAt(run.bodies[link.body].coordinates[0], t, rowAt(t)));
-    const least = Math.min(...xs), most = Math.max(...xs), range = most - least || 1;
+  const walled = run.links.filter((link) => !link.anchor);
+  for (const link of walled) {
+    const { through, along, normal } = run.bodies[link.body].line, same = walled.filter((other) => other.body === link.body);
+    const [least, most] = bounds(survey.map(({ t }) => valueAt(run.bodies[link.body].coordinates[0], t))), range = most - least || 1;
     const x = along[1] > 0.1 ? most + 0.5 * range : least - 0.5 * range;
-    const beside = run.links.findIndex((other) => other.body === link.body) === i ? 0 : 0.06 * range; // two are drawn side by side
-    link.anchor = [through[0] + x * along[0] + beside * normal[0], through[1] + x * along[1] + beside * normal[1]];
-    link.offset = [beside * normal[0], beside * normal[1]];
+    link.anchor = [through[0] + x * along[0], through[1] + x * along[1]];
+    link.beside = 16 * (same.indexOf(link) - (same.length - 1) / 2);
     link.wall = normal;
-  });
+  }
 }
 
 // The bounds of the picture, in the world, and its arrows: {x, y, fx, fy}, or the centres of moments.
-const held = { left: 0, right: 0, bottom: 0, top: 0, arrows: [], wheels: [] };
+const held = {};
 
-function measureBody(body, t, row, take, sizes) {
-  const frame = frameAt(body, t, row);
+function measureBody(body, { t, frames }, take, sizes) {
+  const frame = frames[body.index];
   take(frame.x, frame.y);
-  if (body.track && body.track.on < 0 && t === run.start) for (const point of body.track.points) take(...point);
+  if (body.track?.on < 0 && t === run.start) for (const point of body.track.points) take(...point);
   for (const shape of body.shapes) for (const point of shapePoints(shape)) take(...shapePoint(body, frame, point));
   for (const { arrow } of body.arrows) {
-    const [fx, fy, px, py, couple] = arrow.map((c) => valueAt(c, t, row)), [x, y] = place(frame, px, py);
+    const [fx, fy, px, py, couple] = valuesAt(arrow, t), [x, y] = place(frame, px, py);
     sizes.forces.push(Math.hypot(fx, fy));
     sizes.moments.push(Math.abs(couple));
     if (Number.isFinite(x + y + fx + fy) && (fx || fy)) held.arrows.push({ x, y, fx, fy });
     if (couple) held.wheels.push([frame.x, frame.y]);
   }
-  const velocity = velocityAt(body, t, row);
-  sizes.speeds.push(Math.hypot(...velocity));
+  sizes.speeds.push(Math.hypot(...valuesAt(body.velocity, t)));
 }
 
-// The bounds contain the ground's polygons as far as an eighth of their size beyond the bodies.
-function takePolygons(take) {
-  const { left, right, bottom, top } = held, pad = Math.max(right - left, top - bottom) / 8;
-  const points = run.surfaces.flatMap(({ corners }) => corners || []);
-  for (const [x, y] of points) take(Math.min(Math.max(x, left - pad), right + pad), Math.min(Math.max(y, bottom - pad), top + pad));
+// The bounds contain the ground's polygons as far as an eighth of their size beyond the bodies, and stops that are not
+// farther than their size.
+function takeGround(take) {
+  const { left, right, bottom, top } = held, size = Math.max(right - left, top - bottom);
+  const near = ([x, y], pad) => [clamp(x, left - pad, right + pad), clamp(y, bottom - pad, top + pad)];
+  for (const point of run.surfaces.flatMap(({ corners }) => corners || [])) take(...near(point, size / 8));
+  const stops = run.bodies.flatMap((body) => body.stops.map(({ at }) => placed(survey[0].frames[body.parent], at)));
+  for (const at of stops) if (!wayTo(at, near(at, size))[0]) take(...at);
 }
 
 // Determine the bounds of the bodies, and the sizes of forces, moments and speeds.
 function measure() {
-  for (let i = 0; i <= 400; i++) survey[i] = run.start + (run.end - run.start) * i / 400;
-  Object.assign(held, { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity, arrows: [], wheels: [] });
-  const take = (x, y) => {
-    if (!Number.isFinite(x) || !Number.isFinite(y)) return;
-    held.left = Math.min(held.left, x); held.right = Math.max(held.right, x);
-    held.bottom = Math.min(held.bottom, y); held.top = Math.max(held.top, y);
-  };
+  const pieces = run.bodies.length > 20 ? 50 : 400, sizes = { forces: [], moments: [], speeds: [] };
+  survey = Array.from({ length: pieces + 1 }, (none, i) => {
+    const t = run.start + (run.end - run.start) * i / pieces;
+    return { t, frames: framesAt(t) };
+  });
+  Object.assign(held, { arrows: [], wheels: [] });
+  const xs = [], ys = [], take = (x, y) => { if (Number.isFinite(x + y)) { xs.push(x); ys.push(y); } };
+  const bound = () => { [held.left, held.right] = bounds(xs); [held.bottom, held.top] = bounds(ys); };
   prepareTies();
-  const step = run.bodies.length > 20 ? 8 : 1, sizes = { forces: [], moments: [], speeds: [] };
-  for (let i = 0; i < survey.length; i += step) {
-    const t = survey[i], row = rowAt(t);
-    for (const point of tiePoints((b) => frameAt(run.bodies[b], t, row))) take(...point);
-    for (const body of run.bodies) measureBody(body, t, row, take, sizes);
+  for (const sample of survey) {
+    for (const point of tiePoints(sample.frames)) take(...point);
+    for (const body of run.bodies) measureBody(body, sample, take, sizes);
   }
-  takePolygons(take);
+  bound();
+  takeGround(take);
   placeWalls();
   for (const link of run.links) if (link.partner < 0) take(...link.anchor);
+  bound();
   if (held.left > held.right) Object.assign(held, { left: 0, right: 0, bottom: 0, top: 0 });
   Object.assign(view, { force: usualMost(sizes.forces) || 1, moment: usualMost(sizes.moments) || 1, speed: usualMost(sizes.speeds) || 1 });
 }
@@ -131,34 +136,17 @@ function measure() {
 const arrowShare = 0.14, cutShare = 0.19;
 
 function pixelsPerForce() {
-  return arrowShare * Math.min(view.width, view.height) / view.force;
+  return arrowShare * view.side / view.force;
 }
 
 function longestArrow() {
-  return cutShare * Math.min(view.width, view.height);
-}
-
-// The lines s X + x that are uppermost for some s: the upper hull of the points (X, x), from left to right.
-function uppermost(points) {
-  const hull = [];
-  for (const p of [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1])) {
-    for (let n = hull.length; n > 1; n--) {
-      const [X, x] = hull[n - 2], [Y, y] = hull[n - 1];
-      if ((Y - X) * (p[1] - x) < (y - x) * (p[0] - X)) break;
-      hull.pop();
-    }
-    hull.push(p);
-  }
-  return hull;
+  return cutShare * view.side;
 }
 
 // The largest scale s at which s X + x, with X in the world and x in pixels, spans at most `room`; and the span by
 // scale.
 function fitAxis(points, room) {
-  const upper = uppermost(points), lower = uppermost(points.map(([X, x]) => [-X, -x]));
-  const height = (hull, s) => hull.reduce((most, [X, x]) => Math.max(most, s * X + x), -Infinity);
-  const span = (s) => [-height(lower, s), height(upper, s)];
-  const least = upper[0][0], most = upper[upper.length - 1][0];
+  const span = (s) => bounds(points.map(([X, x]) => s * X + x)), [least, most] = bounds(points.map(([X]) => X));
   let low = 0, high = 1e-9;
   if (!(most - least > 1e-12 * Math.max(Math.abs(most), Math.abs(least)))) return { most: Infinity, span };
   const fits = (s) => { const [a, b] = span(s); return b - a <= room; };
@@ -192,34 +180,24 @@ function fitWhole() {
   const across = fitAxis(xs, room[0]), up = fitAxis(ys, room[1]);
   let scale = Math.min(across.most, up.most);
   if (!(scale > 0)) scale = Math.min(room[0], room[1]) / (Math.max(held.right - held.left, held.top - held.bottom) || 1);
-  if (!Number.isFinite(scale)) scale = 0.5 * Math.min(view.width, view.height);
+  if (!Number.isFinite(scale)) scale = 0.5 * view.side;
   const [left, right] = across.span(scale), [top, bottom] = up.span(scale), [mx, my] = viewMiddle();
   Object.assign(view, { scale, wholeScale: scale, x: mx - (left + right) / 2, y: my - (top + bottom) / 2 });
 }
 
 // The least distance of two parallel slides with bodies without a size, whose blocks must not overlap.
 function slideGap() {
-  const lines = run.bodies.filter((body) => body.line && body.line.on < 0 && !isSized(body)).map((body) => body.line);
-  let gap = Infinity;
-  lines.forEach((a, i) => lines.slice(i + 1).forEach((b) => {
-    const away = Math.abs((b.through[0] - a.through[0]) * a.normal[0] + (b.through[1] - a.through[1]) * a.normal[1]);
-    const parallel = Math.abs(a.along[0] * b.along[1] - a.along[1] * b.along[0]) < 1e-9;
-    if (parallel && away > 1e-3 * (held.right - held.left)) gap = Math.min(gap, away);
-  }));
-  return gap;
-}
-
-function velocityAt(body, t, row) {
-  return [valueAt(body.velocity[0], t, row), valueAt(body.velocity[1], t, row)];
+  const lines = run.bodies.filter((body) => body.line?.on < 0 && !isSized(body)).map((body) => body.line);
+  const areParallel = (a, b) => Math.abs(a.along[0] * b.along[1] - a.along[1] * b.along[0]) < 1e-9;
+  const away = (a, b) => Math.abs((b.through[0] - a.through[0]) * a.normal[0] + (b.through[1] - a.through[1]) * a.normal[1]);
+  const gaps = lines.flatMap((a) => lines.filter((b) => areParallel(a, b)).map((b) => away(a, b)));
+  return Math.min(...gaps.filter((gap) => gap > 1e-3 * (held.right - held.left)));
 }
 
 // Half the size of a body around its centre of mass, 0 if it has no size.
 function bodyExtent(body) {
-  let most = 0;
-  for (const shape of body.shapes)
-    if (shape.corners || shape.radius)
-      for (const [x, y] of shapePoints(shape)) most = Math.max(most, Math.hypot(x - body.pin[0] - body.G[0], y - body.pin[1] - body.G[1]));
-  return most;
+  const points = body.shapes.filter((shape) => shape.corners || shape.radius).flatMap(shapePoints);
+  return Math.max(0, ...points.map(([x, y]) => Math.hypot(x - body.pin[0] - body.G[0], y - body.pin[1] - body.G[1])));
 }
 
 // True if the bodies are so small compared with their paths that rotations would be invisible.
@@ -233,7 +211,7 @@ function bodiesAreSpecks() {
 // Center a body, magnified so that it is visible.
 function follow(body, frame) {
   const [x, y] = place(frame, ...body.G);
-  const near = 0.09 * Math.min(view.width, view.height) / (bodyExtent(body) || Infinity);
+  const near = 0.09 * view.side / (bodyExtent(body) || Infinity);
   view.scale = Math.max(view.wholeScale, near) * view.zoom;
   const [mx, my] = viewMiddle();
   view.x = mx + view.pan[0] - view.scale * x;
@@ -243,7 +221,7 @@ function follow(body, frame) {
 
 // Zoom by a factor; the point [x, y] of the canvas stays in place.
 function zoomBy(factor, [x, y]) {
-  const zoom = Math.min(Math.max(view.zoom * factor, 0.05), 200), by = zoom / view.zoom;
+  const zoom = clamp(view.zoom * factor, 0.05, 200), by = zoom / view.zoom;
   const [mx, my] = viewMiddle(), from = [x - mx, y - my];
   view.pan = view.pan.map((p, k) => from[k] - by * (from[k] - p));
   view.zoom = zoom;
@@ -272,7 +250,7 @@ function aim() {
   view.scale *= view.zoom;
   view.x = mx + view.zoom * (view.x - mx) + view.pan[0];
   view.y = my + view.zoom * (view.y - my) + view.pan[1];
-  view.block = Math.min(0.045 * Math.min(view.width, view.height), Math.max(7, 0.45 * view.scale * slideGap()));
+  view.block = Math.min(0.045 * view.side, Math.max(7, 0.45 * view.scale * slideGap()));
   drawStill();
 }
 
@@ -290,9 +268,11 @@ function mix(a, b, share) {
 function fit(size = [canvas.clientWidth, canvas.clientHeight], ratio = window.devicePixelRatio || 1) {
   view.ratio = ratio;
   [view.width, view.height] = size;
+  view.side = Math.min(...size);
   canvas.width = Math.round(view.width * ratio);
   canvas.height = Math.round(view.height * ratio);
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+  pen.lineJoin = "round";
   const style = getComputedStyle(document.documentElement);
   for (const name of colours) tone[name] = style.getPropertyValue("--" + name).trim();
   const shades = (share) => Array.from({ length: curveCount }, (none, i) => mix(tone.body, tone[`curve-${i}`], share));

@@ -44,27 +44,32 @@ function translatePage() {
   }
 }
 
+// A number with its unit.
+function measured(value, units, digits = 3) {
+  return `${show(value, digits)} ${unit(units)}`;
+}
+
 // ---- the scene in words
 
 // Size and direction of a force, and its moment; empty at round-off level.
-function arrowInWords(arrow, t, row) {
-  const [fx, fy, , , couple] = arrow.arrow.map((c) => valueAt(c, t, row)), size = Math.hypot(fx, fy), said = [];
+function arrowInWords(arrow, t) {
+  const [fx, fy, , , couple] = valuesAt(arrow.arrow, t), size = Math.hypot(fx, fy), said = [];
   const way = phrase("directions").split(",")[(Math.round(Math.atan2(fy, fx) / (Math.PI / 4)) + 8) % 8];
-  if (size > roundingOf(run.units.force)) said.push(`${show(size, 3)} ${unit(run.units.force)} ${way}`);
-  if (Math.abs(couple) > roundingOf(run.units.moment)) said.push(`${phrase("moment")} ${show(couple, 3)} ${unit(run.units.moment)}`);
+  if (size > roundingOf(run.units.force)) said.push(`${measured(size, run.units.force)} ${way}`);
+  if (Math.abs(couple) > roundingOf(run.units.moment)) said.push(`${phrase("moment")} ${measured(couple, run.units.moment)}`);
   return said.length ? `${quantity(arrow.name)} ${said.join(", ")}` : "";
 }
 
-function bodyInWords(body, t, row) {
-  const numbers = [...body.coordinates, ...body.rates].map((c) => `${quantity(run.columns[c].n)} = ${show(readAt(c, t, row), 3)} ${unit(run.columns[c].u)}`);
-  const acting = body.arrows.map((arrow) => arrowInWords(arrow, t, row)).filter(Boolean);
+function bodyInWords(body, t) {
+  const numbers = [...body.coordinates, ...body.rates].map((c) => `${quantity(run.columns[c].n)} = ${measured(readAt(c, t), run.columns[c].u)}`);
+  const acting = body.arrows.map((arrow) => arrowInWords(arrow, t)).filter(Boolean);
   return `${body.name}: ${numbers.join(", ")}. ${phrase("acting")} ${acting.join("; ") || phrase("nothing")}.`;
 }
 
 // The bodies with their forces, and the events before and after the time t.
 function sceneInWords(t, bodies) {
-  const row = rowAt(t), next = eventTimes.findIndex((time) => time > t), last = (next < 0 ? eventTimes.length : next) - 1;
-  const said = [phrase("at-time", show(t)), ...bodies.slice(0, fewBodies).map((body) => bodyInWords(body, t, row))];
+  const next = eventTimes.findIndex((time) => time > t), last = (next < 0 ? eventTimes.length : next) - 1;
+  const said = [phrase("at-time", show(t)), ...bodies.slice(0, fewBodies).map((body) => bodyInWords(body, t))];
   if (bodies.length > fewBodies) said.push(phrase("more-bodies", bodies.length - fewBodies));
   if (last >= 0) said.push(phrase("last-event", eventText(last)));
   if (next >= 0) said.push(phrase("next-event", eventText(next)));

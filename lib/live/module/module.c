@@ -95,6 +95,11 @@ static char *answer(fbd_errors *errors, const char *key, char *value)
     return all;
 }
 
+char *live_schema(void)
+{
+    return fbd_schema();
+}
+
 char *live_text(const char *text, const char *name, const char *off)
 {
     fbd_errors *errors = fbd_errors_new();

@@ -42,6 +42,9 @@ char *live_check_hand(const char *text, const char *name);
 char *live_grade(const char *key_text, const char *settings, const char *text, const char *student,
                  double details);
 
+/* The model language as JSON Schema (fbd_schema). */
+char *live_schema(void);
+
 /* {errors, find}: the value of fbd_find_json for a question (fbd_find_parse), or null; of the scene at rest if `statics` is
  * not 0. */
 char *live_find(const char *text, const char *name, const char *question, double statics);

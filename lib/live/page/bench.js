@@ -40,6 +40,8 @@ function controlOf(key) {
 function moved(key, value, underWay = false) {
   if (!bench.controls || !controlOf(key).written) return;
   bench.moved.set(key, value);
+  bench.last = key;
+  if (knobs.has(key)) knobs.get(key).told = value;
   const text = benchText();
   askForRun(text, underWay ? rowsUnderWay : 0);
   setEditor(text);
@@ -128,6 +130,7 @@ function sayLibrary(errors, key = "live-no-run") {
 // Say everything again in the language that has been chosen.
 function speakLive() {
   for (const knob of knobs.values()) nameSlider(knob.control.name, knob);
+  showMeaning(editor.selectionStart);
   if (bench.said) element("live-says").textContent = phrase(bench.said.key, ...bench.said.values);
   showCommand();
 }
@@ -138,7 +141,8 @@ function answeredControls(text, answer) {
   showNotes(errors);
   if (controls) takeControls(text, controls);
   element("live-side").classList.toggle("stale", !controls);
-  if (!controls) say("live-no-model", [], "error");
+  for (const [key, { box }] of knobs) box.setAttribute("aria-invalid", String(!controls && key === bench.last));
+  if (!controls) sayLibrary(errors, "live-no-model");
 }
 
 function answeredRun(question, answer) {
@@ -196,6 +200,7 @@ function connectBench() {
   let typing = 0;
   editor.addEventListener("input", () => {
     showLineNumbers();
+    bench.last = null;
     clearTimeout(typing);
     typing = setTimeout(() => askForRun(), 150);
   });
@@ -238,6 +243,7 @@ async function startBench() {
   bench.runner.failed = (message) => say("live-failed", [message], "error");
   const controls = await new Promise((answered) => { bench.runner.ask("controls", [parts.text, parts.name], answered); });
   bench.first = JSON.parse(controls).controls;
+  connectHints(await new Promise((answered) => { bench.runner.ask("schema", [], answered); }));
   bench.own = ownText();
   const linked = await readLink();
   setModel(linked ? linked.text : bench.own, linked ? linked.off : []);

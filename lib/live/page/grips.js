@@ -35,21 +35,20 @@ function turnAbout([x, y], from, to) {
 
 // The outlines of a body on the canvas, as functions that trace them.
 function outlinesOf(body, frame) {
-  const onCanvas = (points) => points.map((point) => toScreen(shapePoint(body, frame, point)));
+  const outer = (points) => points.map((point) => toScreen(shapePoint(body, frame, point)));
   if (!isSized(body) && body.line) return [() => path(blockCorners(frame), true)];
-  if (body.joints.length > 1) return [() => path(body.joints.map((point) => toScreen(place(frame, ...point))), true)];
+  if (body.joints.length > 1) return [() => path(body.joints.map((point) => onCanvas(frame, point)), true)];
   return body.shapes.map((shape) => () => {
-    if (shape.corners) path(onCanvas(shape.corners), shape.kind === "polygon");
-    else disc(onCanvas([shape.center])[0], Math.max((shape.radius || 0) * view.scale, 6));
+    if (shape.corners) path(outer(shape.corners), shape.kind === "polygon");
+    else disc(outer([shape.center])[0], Math.max((shape.radius || 0) * view.scale, 6));
   });
 }
 
 // The body at a point of the canvas, within 8 pixels, of those that `may`; the topmost first.
 function bodyAt([x, y], may) {
-  const row = rowAt(now());
   pen.setLineDash([]);
   pen.lineWidth = 16;
-  return [...run.bodies].reverse().find((body) => may(body) && outlinesOf(body, frameAt(body, now(), row)).some((trace) => {
+  return [...run.bodies].reverse().find((body) => may(body) && outlinesOf(body, frameAt(body, now())).some((trace) => {
     trace();
     return pen.isPointInPath(x * view.ratio, y * view.ratio) || pen.isPointInStroke(x * view.ratio, y * view.ratio);
   })) || null;
@@ -64,13 +63,13 @@ function startSliders(body) {
 // The changes of the coordinates that bring the grabbed point from one place of the canvas to another: along the slide,
 // about the axis, or in the plane.
 function coordinateChanges(body, from, to) {
-  const row = rowAt(run.start), dx = (to[0] - from[0]) / view.scale, dy = (from[1] - to[1]) / view.scale;
+  const dx = (to[0] - from[0]) / view.scale, dy = (from[1] - to[1]) / view.scale;
   if (body.motion === "pivot") {
-    const frame = frameAt(body, run.start, row);
+    const frame = frameAt(body, run.start);
     return [turnAbout(toScreen([frame.x, frame.y]), from, to)];
   }
   if (body.motion !== "slide") return [dx, dy];
-  const { along, on } = body.line, { c, s } = on < 0 ? { c: 1, s: 0 } : frameAt(run.bodies[on], run.start, row);
+  const { along, on } = body.line, { c, s } = on < 0 ? { c: 1, s: 0 } : frameAt(run.bodies[on], run.start);
   return [dx * (c * along[0] - s * along[1]) + dy * (s * along[0] + c * along[1])];
 }
 
@@ -94,7 +93,7 @@ function gripOfMass(from, reach) {
 // A slope turns about the point through which its line goes.
 function gripOfSlope(from, reach) {
   for (const body of run.bodies) {
-    const slider = body.line && body.line.on < 0 && sliderOf(`slopes.${body.name}`, controlNamed("slopes", body.name));
+    const slider = body.line?.on < 0 && sliderOf(`slopes.${body.name}`, controlNamed("slopes", body.name));
     if (!slider) continue;
     const { through, along, normal } = body.line, foot = toScreen(through);
     const ends = acrossCanvas(through, along, normal, surfaceBelow(body)).flat();

@@ -24,7 +24,7 @@ function quantityOf(control, text) {
 
 // The range of a slider: that of the file, or up to twice the present value.
 function rangeOf(control, { number, unit: units, factor }, key) {
-  if (control.low !== null && control.low !== undefined) return [control.low / factor, control.high / factor];
+  if (control.low !== null && control.low !== undefined) return [control.low, control.high].map((limit) => Number((limit / factor).toPrecision(12)));
   if (key === "until") return [0, niceAbove(3 * number)];
   if (!control.unit && number >= 0 && number <= 1) return [0, 1]; // coefficient of friction or restitution, fraction
   if (number === 0) return [-(spans[units] || 1), spans[units] || 1];
@@ -39,7 +39,8 @@ function stepOf([low, high]) {
   return (high - low) / step > 400 ? 2 * step : step;
 }
 
-const knobs = new Map(); // key: {control, quantity, slider, box, range}
+// key: {control, quantity, slider, box, range, shown: in the box, told: by slider, box or grip}
+const knobs = new Map();
 
 function writtenAs(knob, number) {
   const digits = Math.max(0, -Math.floor(Math.log10(knob.step) + 1e-9));
@@ -62,7 +63,10 @@ function makeKnob(key, control, text, tell) {
     tell(key, box.value, true);
   });
   slider.addEventListener("change", () => tell(key, box.value));
-  box.addEventListener("change", () => tell(key, box.value.trim()));
+  box.addEventListener("change", () => {
+    box.value = box.value.trim() || knob.shown;
+    tell(key, box.value);
+  });
   row.append(name, slider, box);
   knobs.set(key, knob);
   nameSlider(control.name, knob);
@@ -76,8 +80,11 @@ function nameSlider(name, { slider }) {
 
 function setKnob(key, control, text) {
   const knob = knobs.get(key), amount = quantityOf(control, text), spot = control.written;
-  const fixed = !spot || control.derived || !Number.isFinite(amount.number);
-  if (!knob.range || (knob.quantity.unit !== amount.unit) || amount.number < knob.range[0] || amount.number > knob.range[1]) {
+  const fixed = !spot || control.derived || !Number.isFinite(amount.number), before = knob.shown;
+  knob.shown = spot && spot.to !== undefined ? text.slice(spot.from, spot.to) : `${show(amount.number)} ${amount.unit}`.trim();
+  // the range stays where the page itself has changed the number, or another one
+  const { range: [low, high] = [0, 0] } = knob, typed = knob.shown !== before && knob.shown !== knob.told;
+  if (typed || knob.quantity.unit !== amount.unit || amount.number < low || amount.number > high) {
     knob.range = rangeOf(control, amount, key);
     if (amount.number < knob.range[0]) knob.range[0] = amount.number;
     if (amount.number > knob.range[1]) knob.range[1] = amount.number;
@@ -90,5 +97,5 @@ function setKnob(key, control, text) {
   }
   for (const input of [knob.slider, knob.box]) input.disabled = fixed;
   if (document.activeElement === knob.box || document.activeElement === knob.slider) return;
-  knob.box.value = spot && spot.to !== undefined ? text.slice(spot.from, spot.to) : `${show(amount.number)} ${amount.unit}`.trim();
+  knob.box.value = knob.shown;
 }

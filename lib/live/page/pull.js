@@ -19,7 +19,7 @@ function toWorld([x, y]) {
 
 // The grabbed point at a time, in the world.
 function grabbedAt(t) {
-  return place(frameAt(run.bodies[pull.body], t, rowAt(t)), ...pull.point);
+  return placed(frameAt(run.bodies[pull.body], t), pull.point);
 }
 
 // Where the hand is at a time of its path.
@@ -47,11 +47,11 @@ function showPull() {
 
 // The force and the work of the hand so far.
 function sayPull(key) {
-  const body = run.bodies[pull.body], arrow = body.arrows.find(({ name }) => name === pull.name), t = now(), row = rowAt(t);
+  const body = run.bodies[pull.body], arrow = body.arrows.find(({ name }) => name === pull.name), t = now();
   if (!arrow) return;
-  const [fx, fy] = arrow.arrow.map((c) => readAt(c, t, row)), work = arrow.work < 0 ? 0 : readAt(arrow.work, t, row);
+  const [fx, fy] = arrow.arrow.map((c) => readAt(c, t)), work = arrow.work < 0 ? 0 : readAt(arrow.work, t);
   element("live-says").setAttribute("aria-live", pull.at ? "off" : "polite"); // not read out twenty times a second
-  say(key, [`${body.name}.${arrow.name}`, `${show(Math.hypot(fx, fy), 3)} ${unit(run.units.force)}`, `${show(work, 3)} ${unit(run.units.energy)}`]);
+  say(key, [`${body.name}.${arrow.name}`, measured(Math.hypot(fx, fy), run.units.force), measured(work, run.units.energy)]);
 }
 
 function takePulled([made, controls, motion]) {
@@ -113,7 +113,7 @@ function letGo() {
 
 // Begin to pull body `index` at a point of the world.
 function beginPull(index, [x, y]) {
-  const body = run.bodies[index], frame = frameAt(body, now(), rowAt(now()));
+  const body = run.bodies[index], frame = frameAt(body, now());
   const point = ["particle", "track", "slide"].includes(body.motion) && !(body.line && body.line.on < 0) ? body.G : inFrame(frame, [x, y]);
   Object.assign(pull, { body: index, point, text: editor.value, shown: editor.value, name: "" });
   Object.assign(pull, { grab: now(), stiffness: stiffnessOfPull(), path: [[now(), x, y]], at: [x, y] });
@@ -142,7 +142,7 @@ function pullByKey(event) {
   if (event.key === "g" && !pull.at && !player.playing) say("live-pull-plays");
   else if (event.key === "g" && !pull.at) {
     const body = run.bodies[chosenBody() || 0];
-    beginPull(body.index, place(frameAt(body, now(), rowAt(now())), ...body.G));
+    beginPull(body.index, place(frameAt(body, now()), ...body.G));
   } else if (pull.at && (event.key === "g" || event.key === "Escape")) letGo();
   else if (step) pull.at = pull.at.map((x, k) => x + 20 * step[k] / view.scale);
   else return;
