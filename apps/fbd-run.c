@@ -413,12 +413,21 @@ static bool find_scale(struct options *options, const fbd_model *model, fbd_erro
     return false;
 }
 
+/* A plain run does not need the derivations of its file. */
+static bool is_plain_run(const struct options *options)
+{
+    return options->action == action_run && !options->find && !options->fit && !options->cut &&
+           !options->html && !options->note;
+}
+
 static enum exit_code read_and_act(struct options *options)
 {
     *options->json_written = false;
     fbd_errors *errors = fbd_errors_new();
     if (!errors) return no_memory();
-    fbd_model *model = fbd_model_read(options->model, options->settings, options->setting_count, errors);
+    fbd_model *model =
+        (is_plain_run(options) ? fbd_model_read_motion : fbd_model_read)(options->model, options->settings,
+                                                                         options->setting_count, errors);
     if (options->watched) watch_tell(options->watched, errors);
     enum exit_code missing = exit_bad_model;
     model = leave_out(model, options, errors, &missing);

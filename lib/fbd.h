@@ -153,6 +153,11 @@ FBD_API fbd_model *fbd_model_read(const char *path, const fbd_setting *settings,
                                   fbd_errors *errors);
 FBD_API fbd_model *fbd_model_parse(const char *text, size_t length, const char *name,
                                    const fbd_setting *settings, size_t setting_count, fbd_errors *errors);
+
+/* Read a file as fbd_model_read, for a run: derivations by hand and exact solutions, which the motion does not depend on, are
+ * neither read nor checked, except when the file has other errors or warnings. */
+FBD_API fbd_model *fbd_model_read_motion(const char *path, const fbd_setting *settings, size_t setting_count,
+                                         fbd_errors *errors);
 FBD_API void fbd_model_free(fbd_model *model);
 
 /* Computes an input at time `t` [s] and `y`: the coordinates of the model in the order of fbd_model_coordinate, their

@@ -43,9 +43,24 @@ static bool warn_of_sides(const fbd_model *model, fbd_errors *errors)
     return done;
 }
 
+/* Compile a document without derivations, if there is nothing to say about it: a parameter that seems to be unused may be
+ * that of a derivation. */
+static fbd_model *compile_motion(struct document *document, const struct override *overrides, size_t count,
+                                 fbd_errors *errors)
+{
+    const struct diag_mark mark = diag_mark(errors);
+    document->without_hands = true;
+    fbd_model *model = hands_compile(document, overrides, count, errors);
+    document->without_hands = false;
+    if (diag_mark(errors).count == mark.count) return model;
+    model_free(model);
+    diag_take_back(errors, mark);
+    return NULL;
+}
+
 /* Takes ownership of `text`. */
 static fbd_model *compile(char *text, size_t length, const char *name, const fbd_setting *settings,
-                          size_t count, fbd_errors *errors)
+                          size_t count, bool motion_only, fbd_errors *errors)
 {
     struct override *overrides = calloc(count + 1, sizeof *overrides);
     fbd_model *model = NULL;
@@ -54,7 +69,8 @@ static fbd_model *compile(char *text, size_t length, const char *name, const fbd
             overrides[i] = (struct override){.name = settings[i].name, .value = settings[i].value};
         struct document document;
         bool open = document_open(&document, text, length, name, errors);
-        if (open) model = hands_compile(&document, overrides, count, errors);
+        if (open && motion_only) model = compile_motion(&document, overrides, count, errors);
+        if (open && !model) model = hands_compile(&document, overrides, count, errors);
         document_close(&document);
         diag_place_fixes(errors, name, text, length);
     } else {
@@ -90,22 +106,35 @@ fbd_model *fbd_model_parse(const char *text, size_t length, const char *name, co
     fbd_errors *errors = diag_begin(&call, list);
     bool asked = is_asked(text, settings, setting_count, errors);
     char *copy = asked ? file_copy(text, length, errors) : NULL;
-    fbd_model *model = copy ? compile(copy, length, name, settings, setting_count, errors) : NULL;
+    fbd_model *model = copy ? compile(copy, length, name, settings, setting_count, false, errors) : NULL;
     diag_end(&call);
     return model;
 }
 
-fbd_model *fbd_model_read(const char *path, const fbd_setting *settings, size_t setting_count,
-                          fbd_errors *list)
+static fbd_model *read_file(const char *path, const fbd_setting *settings, size_t setting_count,
+                            bool motion_only, fbd_errors *list)
 {
     struct diag_call call;
     fbd_errors *errors = diag_begin(&call, list);
     size_t length;
     bool asked = is_asked(path, settings, setting_count, errors);
     char *text = asked ? file_text(path, &length, errors) : NULL;
-    fbd_model *model = text ? compile(text, length, file_name(path), settings, setting_count, errors) : NULL;
+    fbd_model *model =
+        text ? compile(text, length, file_name(path), settings, setting_count, motion_only, errors) : NULL;
     diag_end(&call);
     return model;
+}
+
+fbd_model *fbd_model_read(const char *path, const fbd_setting *settings, size_t setting_count,
+                          fbd_errors *errors)
+{
+    return read_file(path, settings, setting_count, false, errors);
+}
+
+fbd_model *fbd_model_read_motion(const char *path, const fbd_setting *settings, size_t setting_count,
+                                 fbd_errors *errors)
+{
+    return read_file(path, settings, setting_count, true, errors);
 }
 
 void fbd_model_free(fbd_model *model)

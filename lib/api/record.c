@@ -63,10 +63,10 @@ static const double first_slice = 1e-9, usual_slice = 1e-3;
 
 static void adapt_slice(struct going *going, unsigned long made)
 {
-    const double islands = (double)going->result->simulation->ensemble->count, most = 1000 * islands;
-    if ((double)made > most)
-        going->slice *= most / (double)made;
-    else if (going->slice < usual_slice || (double)made < islands)
+    const unsigned long islands = going->result->simulation->ensemble->count, most = 1000 * islands;
+    if (made > most)
+        going->slice *= (double)most / (double)made;
+    else if (made < islands || going->slice < usual_slice)
         going->slice *= 2;
 }
 
@@ -82,8 +82,9 @@ static bool tell(const struct going *going, double t)
     const struct ensemble *ensemble = going->result->simulation->ensemble;
     if (!recording || !recording->progress) return false;
     double begin = begin_of(ensemble), end = ensemble->options.until;
+    double share = t < end ? (t - begin) / (end - begin) : 1;
     fbd_progress progress = {.what = "run",
-                             .share = end > begin ? fmin(fmax((t - begin) / (end - begin), 0), 1) : 1,
+                             .share = share > 0 ? share : 0,
                              .t = t,
                              .until = end,
                              .steps = going->steps,
@@ -136,6 +137,12 @@ static void observe_again(void *context, struct ensemble *ensemble, size_t group
     if (going->result->ledger.any) ledger_restart(&going->result->ledger, ensemble, group);
 }
 
+static double end_of_slice(const struct going *going, const struct ensemble *ensemble)
+{
+    double end = ensemble->t + going->slice * ensemble->options.until;
+    return end > ensemble->t ? end : nextafter(ensemble->t, HUGE_VAL);
+}
+
 /* The next time at which something other than a row is due: a sample of the errors, the end of a step for the
  * record, or the end of a slice, so that the progress function is called. No slices are needed for a single
  * island without stops, or with a record, since progress is then reported after each step. */
@@ -147,8 +154,7 @@ static double next_stop(const struct going *going)
     if (going->result->record) next = fmin(next, ensemble_next_end(ensemble));
     bool told = going->recording && going->recording->progress;
     if (told && !going->result->record && !(ensemble->count == 1 && going->whole))
-        next = fmin(next, fmax(ensemble->t + going->slice * ensemble->options.until,
-                               nextafter(ensemble->t, HUGE_VAL)));
+        return bars ? fmin(next, end_of_slice(going, ensemble)) : end_of_slice(going, ensemble);
     return next;
 }
 

@@ -15,15 +15,21 @@ typedef uint64_t wide;
 static const bool is_wide = false;
 #endif
 
-enum { most_digits = 17, greatest_scale = 27, mantissa_bits = 52, exponent_bias = 1075 };
+enum {
+    most_digits = 17,
+    greatest_scale = 27,
+    mantissa_bits = 52,
+    exponent_bias = 1075,
+    fraction_bits = 4 * sizeof(wide)
+};
 
-static const uint64_t least_mantissa = UINT64_C(1) << mantissa_bits;
+static const uint64_t least_mantissa = UINT64_C(1) << mantissa_bits, ten_to_17 = UINT64_C(100000000000000000);
 
-/* |value| 10^scale = m u / d = whole + rest / d exactly, with 17 digits in `whole`: u / d is one unit in the last place
- * of the value. */
+/* |value| 10^scale exactly, with 17 digits before the binary point and `fraction_bits` behind it, and half a unit in the
+ * last place of the value. */
 struct scaled {
-    uint64_t m, whole;
-    wide u, d, rest;
+    wide number, half;
+    uint64_t m;   /* the mantissa of the value */
     int exponent; /* of the first digit */
 };
 
@@ -44,80 +50,77 @@ static uint64_t power_of_five(int exponent)
     return powers[exponent];
 }
 
-/* m 2^twos 5^scale. Of numbers with 17 digits before the point no shift is longer than 63 bits. */
-static void scale_by(struct scaled *scaled, int twos, int scale)
+static uint64_t whole_of(const struct scaled *scaled)
 {
-    uint64_t five = power_of_five(scale >= 0 ? scale : -scale);
-    scaled->u = scale >= 0 ? five : 1;
-    scaled->d = scale >= 0 ? 1 : five;
-    if (twos >= 0)
-        scaled->u <<= twos;
-    else
-        scaled->d <<= -twos;
-    wide number = scaled->m * scaled->u;
-    if (scale >= 0 && twos < 0) { /* usual: the denominator is a power of two */
-        scaled->whole = (uint64_t)(number >> -twos);
-        scaled->rest = number & (scaled->d - 1);
-        return;
-    }
-    scaled->whole = (uint64_t)(number / scaled->d);
-    scaled->rest = number - scaled->whole * scaled->d;
+    return (uint64_t)(scaled->number >> fraction_bits);
 }
 
-static const uint64_t ten_to_16 = UINT64_C(10000000000000000);
-
-/* Scale a number above 0 to 17 digits before the point; false outside the supported range. */
-static bool scale_to_17(double value, struct scaled *scaled)
+/* Scale |value|, of the supported range. Between powers of two log2 is at least linear in the mantissa, which the bits
+ * below the exponent are: the exponent of ten is right, or, for few numbers, one too small. The product is
+ * m 5^scale 2^(exponent + scale), with at most 62 bits behind the point. */
+static inline struct scaled scale_to_17(double value)
 {
+    enum { kept_bits = 20 }; /* of the mantissa */
+    const double size = fabs(value);
+    struct scaled scaled;
     uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    int exponent = (int)(bits >> mantissa_bits) - exponent_bias, log2 = exponent + mantissa_bits;
-    scaled->m = (bits & (least_mantissa - 1)) | least_mantissa;
-    scaled->exponent = (int)((log2 * INT64_C(1292913986)) >> 32); /* of 2^log2: the same or one less */
-    for (int tries = 0; tries < 2; tries++, scaled->exponent++) {
-        const int scale = most_digits - 1 - scaled->exponent;
-        if (scale < -greatest_scale || scale > greatest_scale) return false;
-        scale_by(scaled, exponent + scale, scale);
-        if (scaled->whole / 10 < ten_to_16) return true;
+    memcpy(&bits, &size, sizeof bits);
+    int exponent = (int)(bits >> mantissa_bits) - exponent_bias;
+    int64_t log2 = (int64_t)(bits >> (mantissa_bits - kept_bits)) -
+                   ((int64_t)(exponent_bias - mantissa_bits) << kept_bits);
+    scaled.m = (bits & (least_mantissa - 1)) | least_mantissa;
+    scaled.exponent =
+        (int)((log2 * INT64_C(1292913986)) >> (32 + kept_bits)); /* log10(2) 2^32, rounded down */
+    for (;; scaled.exponent++) {
+        const int scale = most_digits - 1 - scaled.exponent, shift = fraction_bits + exponent + scale;
+        const uint64_t five = power_of_five(scale);
+        scaled.half = (wide)(five >> (fraction_bits + 1 - shift)) << fraction_bits | five << (shift - 1);
+        scaled.number = 2 * scaled.m * scaled.half;
+        if (whole_of(&scaled) < ten_to_17) return scaled;
     }
-    return false;
 }
 
-/* The nearest integer to the number over `step`, halves to the even one, as printf rounds. */
-static uint64_t round_to(const struct scaled *scaled, uint64_t step)
+/* A decimal of fewer digits, as an integer of 17; and how far it is from the number. */
+struct decimal {
+    uint64_t value;
+    wide apart;
+};
+
+/* The nearest multiple of `step`, halves to the even one, as printf rounds. */
+static inline struct decimal round_to(const struct scaled *scaled, uint64_t step)
 {
-    uint64_t floor = scaled->whole / step;
-    wide rest = 2 * ((scaled->whole - floor * step) * scaled->d + scaled->rest), unit = step * scaled->d;
-    return floor + (rest > unit || (rest == unit && (floor & 1)));
+    uint64_t whole = whole_of(scaled), floor = whole / step, low = floor * step;
+    wide below = scaled->number - ((wide)low << fraction_bits), above = ((wide)step << fraction_bits) - below;
+    bool down = below < above || (below == above && floor % 2 == 0);
+    return down ? (struct decimal){low, below} : (struct decimal){low + step, above};
 }
 
 /* A decimal reads back as the value if it is within half a unit of its last place; at exactly half a unit if
  * the value is the even one. Below a power of two the unit is half as large. */
-static bool reads_back(const struct scaled *scaled, uint64_t decimal, uint64_t step)
+static inline bool reads_back(const struct scaled *scaled, struct decimal decimal)
 {
-    uint64_t there = decimal * step;
-    bool above = there > scaled->whole;
-    wide apart = above ? (there - scaled->whole) * scaled->d - scaled->rest
-                       : (scaled->whole - there) * scaled->d + scaled->rest;
-    apart *= !above && scaled->m == least_mantissa ? 4 : 2;
-    return apart < scaled->u || (apart == scaled->u && scaled->m % 2 == 0);
+    bool is_short = scaled->m == least_mantissa && decimal.value <= whole_of(scaled);
+    wide half = is_short ? scaled->half / 2 : scaled->half;
+    return decimal.apart < half || (decimal.apart == half && scaled->m % 2 == 0);
 }
 
-/* As %g writes `digits` digits, the first of them worth 10^exponent. */
-static int write(char *buffer, const char *digits, int count, int exponent)
+/* As %g writes `count` digits, the first of them worth 10^exponent. Copies of one size are some moves; their excess is
+ * written over, or lies behind the end. */
+static inline int write(char *buffer, const char digits[2 * most_digits], int count, int exponent)
 {
     char *at = buffer;
     int last = count;
+    while (last > 8 && memcmp(digits + last - 8, "00000000", 8) == 0) last -= 8;
     while (last > 1 && digits[last - 1] == '0') last--;
     bool fixed = exponent >= -4 && exponent < count;
     int before = !fixed ? 1 : exponent >= 0 ? exponent + 1 : 0; /* digits before the point */
     if (before == 0) *at++ = '0';
-    memcpy(at, digits, (size_t)before);
+    memcpy(at, digits, most_digits);
     at += before;
     if (last > before) {
-        *at++ = '.';
-        for (int i = exponent + 1; fixed && i < 0; i++) *at++ = '0';
-        memcpy(at, digits + before, (size_t)(last - before));
+        memcpy(at, ".000", 4);
+        at += before == 0 ? -exponent : 1;
+        memcpy(at, digits + before, most_digits);
         at += last - before;
     }
     if (!fixed) {
@@ -131,8 +134,10 @@ static int write(char *buffer, const char *digits, int count, int exponent)
     return (int)(at - buffer);
 }
 
-/* Write eight digits, two by two. */
-static void write_eight(char *digits, uint32_t part)
+enum { pair_bits = 57 };
+
+/* Write the integer before the binary point of `rest`, two digits; returns 100 times the fraction. */
+static inline uint64_t write_pair(char *digits, uint64_t rest)
 {
     static const char pairs[] = "00010203040506070809"
                                 "10111213141516171819"
@@ -144,37 +149,37 @@ static void write_eight(char *digits, uint32_t part)
                                 "70717273747576777879"
                                 "80818283848586878889"
                                 "90919293949596979899";
-    const size_t high = part / 10000, low = part % 10000;
-    memcpy(digits, pairs + 2 * (high / 100), 2);
-    memcpy(digits + 2, pairs + 2 * (high % 100), 2);
-    memcpy(digits + 4, pairs + 2 * (low / 100), 2);
-    memcpy(digits + 6, pairs + 2 * (low % 100), 2);
+    memcpy(digits, pairs + 2 * (rest >> pair_bits), 2);
+    return 100 * (rest & ((UINT64_C(1) << pair_bits) - 1));
 }
 
-/* An integer of 17 digits, rounded to `count` of them, whose first is worth 10^exponent. */
-static int write_decimal(char *buffer, uint64_t decimal, int count, int exponent)
+/* Write eight digits: the integers of part / 10^6 times 1, 100, 100^2 and 100^3, with 57 bits behind the binary point,
+ * which leave room for 100 before it. The quotient is too large by less than 10^8 / 2^57, and 100^3 times that is less
+ * than one. */
+static inline void write_eight(char *digits, uint32_t part)
+{
+    uint64_t rest = part * ((UINT64_C(1) << pair_bits) / 1000000 + 1);
+    rest = write_pair(digits, rest);
+    rest = write_pair(digits + 2, rest);
+    rest = write_pair(digits + 4, rest);
+    write_pair(digits + 6, rest);
+}
+
+/* Write an integer of 17 digits, rounded to `count` of them, whose first is worth 10^exponent; rounding of 9.99... may
+ * have given 18. */
+static inline __attribute__((always_inline)) int write_decimal(char *buffer, bool minus, uint64_t decimal,
+                                                               int count, int exponent)
 {
     const uint64_t half = UINT64_C(100000000);
-    char digits[most_digits];
-    digits[0] = (char)('0' + decimal / (half * half));
-    write_eight(digits + 1, (uint32_t)(decimal / half % half));
-    write_eight(digits + 9, (uint32_t)(decimal % half));
-    return write(buffer, digits, count, exponent);
-}
-
-/* The part common to all functions: the check of the range, which leaves out subnormal numbers. False outside it. */
-static bool begin(struct scaled *scaled, double value)
-{
-    return is_wide && value != 0 && isfinite(value) && scale_to_17(fabs(value), scaled);
-}
-
-/* Write a decimal of so many digits, in units of `step`; rounding of 9.99... may have given 10. */
-static int write_rounded(char *buffer, bool minus, uint64_t decimal, uint64_t step, int digits, int exponent)
-{
-    uint64_t all = decimal * step;
-    bool carried = all / 10 >= ten_to_16;
-    if (minus) *buffer++ = '-';
-    return minus + write_decimal(buffer, carried ? all / 10 : all, digits, exponent + carried);
+    char digits[2 * most_digits] = {0};
+    bool carried = decimal >= ten_to_17;
+    if (carried) decimal /= 10;
+    uint64_t high = decimal / half, first = high / half;
+    digits[0] = (char)('0' + first);
+    write_eight(digits + 1, (uint32_t)(high - first * half));
+    write_eight(digits + 9, (uint32_t)(decimal - high * half));
+    *buffer = '-';
+    return minus + write(buffer + minus, digits, count, exponent + carried);
 }
 
 /* Write the digits of an integer, without a power of ten. */
@@ -187,35 +192,43 @@ static int write_whole(char *buffer, uint64_t whole)
     return count;
 }
 
-/* Can a multiple of 100 be within half a unit of the last place, which is at most 10^17 / 2^53 < 12? */
-static bool may_have_15_digits(const struct scaled *scaled)
+static inline bool is_supported(double value)
 {
-    uint64_t off = scaled->whole % 100;
-    return off < 12 || off >= 100 - 12;
+    return is_wide && fabs(value) >= 1e-10 && fabs(value) < 1e15;
 }
 
 int dtoa_shortest(char buffer[dtoa_size], double value)
 {
-    const double largest_whole = 1e15;
-    struct scaled scaled;
-    if (value >= 0 && value < largest_whole && !signbit(value) && value == (double)(uint64_t)value)
+    if (fabs(value) < 1e15 && value == (double)(int64_t)value && !signbit(value))
         return write_whole(buffer, (uint64_t)value);
-    if (!begin(&scaled, value)) return -1;
-    uint64_t step = may_have_15_digits(&scaled) ? 100 : 10;
-    for (int digits = step == 100 ? most_digits - 2 : most_digits - 1;; digits++, step /= 10) {
-        uint64_t decimal = round_to(&scaled, step);
-        if (digits == most_digits || reads_back(&scaled, decimal, step))
-            return write_rounded(buffer, value < 0, decimal, step, digits, scaled.exponent);
+    if (!is_supported(value)) return -1;
+    const struct scaled scaled = scale_to_17(value);
+    struct decimal decimal = round_to(&scaled, 10);
+    int digits = most_digits - 1;
+    bool is_enough = reads_back(&scaled, decimal);
+    if (is_enough ||
+        scaled.m == least_mantissa) { /* or of 15 digits none does, as the nearest are no nearer */
+        struct decimal shorter = round_to(&scaled, 100);
+        if (reads_back(&scaled, shorter)) {
+            is_enough = true;
+            digits--;
+            decimal = shorter;
+        }
     }
+    if (!is_enough) {
+        digits = most_digits;
+        decimal = round_to(&scaled, 1);
+    }
+    return write_decimal(buffer, value < 0, decimal.value, digits, scaled.exponent);
 }
 
 int dtoa_rounded(char buffer[dtoa_size], double value, int digits)
 {
-    struct scaled scaled;
     if (digits < 1 || digits > most_digits) return -1;
-    if (value == 0 && !signbit(value)) return write(buffer, "0", 1, 0);
-    if (!begin(&scaled, value)) return -1;
+    if (value == 0 && !signbit(value)) return write_whole(buffer, 0);
+    if (!is_supported(value)) return -1;
+    const struct scaled scaled = scale_to_17(value);
     uint64_t step = 1;
     for (int i = digits; i < most_digits; i++) step *= 10;
-    return write_rounded(buffer, value < 0, round_to(&scaled, step), step, digits, scaled.exponent);
+    return write_decimal(buffer, value < 0, round_to(&scaled, step).value, digits, scaled.exponent);
 }

@@ -11,7 +11,7 @@
 
 #include <stdint.h>
 
-enum { dtoa_size = 32 };
+enum { dtoa_size = 40 };
 
 /* Write `value` as %.15g, %.16g or %.17g in the C locale, the first of them that reads back as `value`.
  * Returns its length, or -1 for a number outside the supported range. */

@@ -12,10 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool text_reserve(struct text *text, size_t more)
+bool text_grow(struct text *text, size_t more)
 {
     if (text->failed) return false;
-    if (text->capacity - text->length > more) return true;
     size_t capacity = text->capacity ? text->capacity : 1024;
     while (capacity - text->length <= more) capacity *= 2;
     char *data = realloc(text->data, capacity);
@@ -197,10 +196,14 @@ void text_exact(struct text *text, double value)
 {
     enum { room = 64 };
     if (!text_reserve(text, room)) return;
-    int length = format_shortest(text->data + text->length, room, value == 0 ? 0.0 : value);
-    if (length < 0) return;
-    text->odd |= !isfinite(value);
-    text->length += (size_t)length;
+    char *end = text->data + text->length;
+    double shown = value + 0.0; /* write -0 as 0 */
+    int length = dtoa_shortest(end, shown);
+    if (length < 0) {
+        length = format_shortest(end, room, shown);
+        text->odd |= !isfinite(value);
+    }
+    if (length > 0) text->length += (size_t)length;
 }
 
 void text_json_number(struct text *text, double value)

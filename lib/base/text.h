@@ -17,7 +17,11 @@ struct text {
 };
 
 /* Reserve room for `more` bytes and the terminating zero; false when memory is out. */
-bool text_reserve(struct text *text, size_t more);
+bool text_grow(struct text *text, size_t more);
+static inline bool text_reserve(struct text *text, size_t more)
+{
+    return (!text->failed && text->capacity - text->length > more) || text_grow(text, more);
+}
 
 void text_add(struct text *text, const char *string);
 void text_add_bytes(struct text *text, const char *bytes, size_t length);

@@ -437,10 +437,7 @@ bool ensemble_look_before(struct ensemble *ensemble, double t, struct fbd_state 
 
 const struct fbd_state *ensemble_placed(struct ensemble *ensemble)
 {
-    if (!ensemble->current) {
-        ensemble_rewind(ensemble, ensemble->t);
-        place(ensemble, ensemble->t, place_run, ensemble->state);
-    }
+    if (!ensemble->current) place(ensemble, ensemble->t, place_run, ensemble->state);
     return ensemble->state;
 }
 

@@ -127,8 +127,8 @@ size_t group_component(const struct fbd_model *whole, const struct group *group,
 /* Fail when the forces at ensemble->t do not balance the accelerations (balance.h). */
 void ensemble_check_balance(struct ensemble *ensemble);
 
-/* The state at ensemble->t; valid until the ensemble advances. Placed, it has its coordinates, rates and user states
- * alone: accelerations and forces are those of another time. */
+/* The state at ensemble->t; valid until the ensemble advances. Placed, by ensemble_go with its runs kept, it has its
+ * coordinates, rates and user states alone: accelerations and forces are those of another time. */
 const struct fbd_state *ensemble_placed(struct ensemble *ensemble);
 struct fbd_state *ensemble_state(struct ensemble *ensemble);
 

@@ -224,7 +224,8 @@ static void time_values(const struct run_column *c, int count, struct column_vie
 
 static void entry_values(const struct run_column *c, int count, struct column_view *view, double *values)
 {
-    for (int k = 0; k < count; k++) values[k] = view->state->y[c[k].entry] / c[k].size;
+    const double *y = view->state->y;
+    for (const struct run_column *end = c + count; c < end; c++) *values++ = y[c->entry] / c->size;
 }
 
 static void acceleration_values(const struct run_column *c, int count, struct column_view *view,

@@ -33,19 +33,22 @@ static void headers(struct csv *csv)
 
 /* ---- rows */
 
-/* Write the next field of the row; empty if the number is not finite. */
-static void field(struct csv *csv, double value)
+/* Write the next field of the row; empty if the number is not finite. Returns whether it is. */
+static inline bool field(struct csv *csv, double value)
 {
+    const bool finite = isfinite(value);
     if (csv->numbers) numbers_add(csv->numbers, value);
-    if (!csv->recording->csv) return;
-    if (csv->line.length > 0) text_add_bytes(&csv->line, ",", 1);
-    if (isfinite(value)) text_exact(&csv->line, value);
+    if (csv->recording->csv) {
+        if (csv->line.length > 0) text_literal(&csv->line, ",");
+        if (finite) text_exact(&csv->line, value);
+    }
+    return finite;
 }
 
 static bool put_line(struct csv *csv)
 {
     const fbd_recording *recording = csv->recording;
-    if (recording->csv) text_add(&csv->line, "\n");
+    if (recording->csv) text_literal(&csv->line, "\n");
     csv->failed |= csv->line.failed;
     if (recording->csv && !csv->failed)
         csv->failed = recording->csv(recording->csv_context, csv->line.data, csv->line.length) != 0;
@@ -62,11 +65,17 @@ static bool put_row(struct csv *csv)
 static bool refuse_line(struct csv *csv, struct ensemble *ensemble)
 {
     csv->line.length = 0;
-    csv->odd = false;
     if (csv->numbers) numbers_drop_row(csv->numbers);
     if (result_finite(ensemble, csv->ledger, csv->work))
         ensemble_spoil(ensemble, "a number of the row at t = %.9g is not finite", ensemble->t);
     return ensemble->outcome == FBD_FAILED || ensemble->outcome == FBD_BROKEN;
+}
+
+static void error_field(struct csv *csv, size_t i, const struct column_view *view)
+{
+    const struct run_column *column = &csv->columns.list[i];
+    if (column_has_error(column))
+        field(csv, column_error(column, view, csv->bars, csv->values[i], csv->others[i]));
 }
 
 static bool row(struct csv *csv, struct ensemble *ensemble)
@@ -75,6 +84,7 @@ static bool row(struct csv *csv, struct ensemble *ensemble)
     const struct run_columns *columns = &csv->columns;
     struct bars *bars = csv->bars;
     struct column_view view, companion;
+    bool odd = false;
     column_view_begin(&view, state, csv->ledger, csv->work, csv->arrows);
     run_columns_values(columns, &view, csv->values);
     if (bars) {
@@ -83,14 +93,10 @@ static bool row(struct csv *csv, struct ensemble *ensemble)
     }
     csv->last = state->t;
     for (size_t i = 0; i < columns->count; i++) {
-        const struct run_column *column = &columns->list[i];
-        const double value = csv->values[i];
-        csv->odd |= !isfinite(value);
-        field(csv, value);
-        if (bars && column_has_error(column))
-            field(csv, column_error(column, &view, bars, value, csv->others[i]));
+        odd |= !field(csv, csv->values[i]);
+        if (bars) error_field(csv, i, &view);
     }
-    return csv->odd ? refuse_line(csv, ensemble) : put_row(csv);
+    return odd ? refuse_line(csv, ensemble) : put_row(csv);
 }
 
 /* ---- the file */
@@ -141,7 +147,8 @@ bool csv_begin(struct csv *csv, fbd_result *result, const fbd_recording *recordi
 
 double csv_next(const struct csv *csv)
 {
-    return csv->every > 0 ? fmin(csv->start + (double)csv->next * csv->every, csv->until) : csv->until;
+    const double next = csv->start + (double)csv->next * csv->every;
+    return csv->every > 0 && next < csv->until ? next : csv->until;
 }
 
 bool csv_row(struct csv *csv, struct ensemble *ensemble, bool event)

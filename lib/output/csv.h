@@ -24,7 +24,6 @@ struct csv {
     double *work;            /* integrals up to the row */
     double *values, *others; /* of a row, and of the companion with error bars */
     bool evaluated;          /* columns need accelerations, forces or energies */
-    bool odd;                /* the line has a number that is not finite */
     bool failed;             /* out of memory or error of the writer */
 };
 

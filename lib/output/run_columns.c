@@ -56,6 +56,17 @@ static void append_forces(struct run_columns *columns, unsigned uses, const stru
     append_scope(columns, uses, of_works, b, -1);
 }
 
+/* Entries of y are evaluated together, whichever body they belong to. */
+static void join_entries(struct run_columns *columns)
+{
+    int count = 0; /* of entries from i on */
+    for (size_t i = columns->count; i-- > 0;) {
+        struct run_column *column = &columns->list[i];
+        count = column_is_entry(column) ? count + 1 : 0;
+        if (count > 0) column->group = count;
+    }
+}
+
 bool run_columns_make(struct run_columns *columns, unsigned uses, const struct fbd_state *start)
 {
     const struct fbd_model *model = columns->model;
@@ -72,6 +83,7 @@ bool run_columns_make(struct run_columns *columns, unsigned uses, const struct f
         for (int b = 0; b < bodies; b++) append_forces(columns, uses, start, b);
         append_scope(columns, uses, of_energy, -1, -1);
     }
+    join_entries(columns);
     return !columns->arena.failed;
 }
 

@@ -75,7 +75,7 @@ struct run_column {
     int index;   /* of the arrow in the diagram of the body, of the user state, of the output point */
     int part;    /* of the kind, from 0 */
     int entry;   /* of y or a; the load of a work */
-    int group;   /* of the first of columns that differ in `part` alone: their number */
+    int group;   /* of the first of columns that are evaluated together: their number */
     bool extra;  /* a component of a force that the CSV has with `components` only */
     double size; /* of the displayed unit: the number in y is divided by it */
     int point;   /* of a body: world_point */

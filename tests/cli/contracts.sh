@@ -66,6 +66,14 @@ simulate: {until: 1 s}
 END
 check 'a hand derivation that differs is 4' exits 4 run --check-hand differs.yaml
 check 'and the term is named' says 'term `applied` has the wrong sign' out
+sed 's/m\*v_dot/m/' differs.yaml >misread.yaml
+check 'one that cannot be read is 3' exits 3 run --check misread.yaml
+check 'but a run does not read it' exits 0 run --quiet --until 1 misread.yaml
+sed 's/bodies:/parameters: {p: 1 N}\nbodies:/; s/-3\[N\]/p/' differs.yaml >named.yaml
+check 'nor warns of what it names' exits 0 run --quiet --until 1 named.yaml
+check 'and says nothing' is_empty err
+sed 's/bodies:/parameters: {p: 1 N}\nbodies:/' misread.yaml >unused.yaml
+check 'a file with other notes is read as a whole' exits 3 run --quiet --until 1 unused.yaml
 
 # ---- where things are written
 check '--help goes to standard output with 0' exits 0 run --help

@@ -81,6 +81,8 @@ static void errors_and_models(void **state)
     ENDURES(fbd_errors_free, fbd_errors_free(NULL));
     REFUSES(fbd_model_read, !fbd_model_read(NULL, NULL, 0, errors));
     REFUSES(fbd_model_read, !fbd_model_read("-", NULL, 1, errors));
+    REFUSES(fbd_model_read_motion, !fbd_model_read_motion(NULL, NULL, 0, errors));
+    REFUSES(fbd_model_read_motion, !fbd_model_read_motion("-", NULL, 1, errors));
     REFUSES(fbd_model_parse, !fbd_model_parse(NULL, 3, "name", NULL, 0, errors));
     REFUSES(fbd_model_parse,
             !fbd_model_parse(bad_calls_scene, strlen(bad_calls_scene), "name", NULL, 1, errors));
