@@ -46,6 +46,9 @@ void row_maker_end(struct row_maker *maker);
 /* Set the overrides to the values of a run (row_make does it). False when memory is out. */
 bool row_maker_set(struct row_maker *maker, uint64_t run);
 
+/* Warn where a column is of a section, and equilibrium does not determine all reactions at the start. */
+void rows_warn_of_sections(const struct rows *rows, fbd_errors *errors);
+
 /* The model of the values that are set; NULL with notes. */
 struct fbd_model *row_model(struct row_maker *maker, fbd_errors *errors);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * A row of the scene at rest.
+ * A row of the scene at rest; reactions that equilibrium does not determine.
  */
 #include <math.h>
 
@@ -23,6 +23,31 @@ bool rows_rest(const struct rows *rows, fbd_errors *errors)
         return false;
     }
     return true;
+}
+
+static bool has_section(const struct columns *columns)
+{
+    for (size_t i = 0; i < columns->count; i++)
+        if (columns->list[i].quantity.kind == column_section) return true;
+    return false;
+}
+
+void rows_warn_of_sections(const struct rows *rows, fbd_errors *errors)
+{
+    if (!has_section(&rows->columns)) return;
+    fbd_errors *silent = fbd_errors_new();
+    fbd_state *state = silent ? fbd_state_new(rows->base) : NULL;
+    fbd_statics *statics = state ? fbd_statics_new(state, silent) : NULL;
+    if (fbd_statics_undetermined_count(statics) > 0)
+        diag_add(errors, FBD_WARNING, "indeterminate", (struct pos){0, 0},
+                 "of all reactions that agree with the motion those of the least sum of squares are taken; "
+                 "use springs in "
+                 "place of rigid supports",
+                 "equilibrium alone does not determine `%s`, on which section forces may depend",
+                 fbd_statics_undetermined(statics, 0));
+    fbd_statics_free(statics);
+    fbd_state_free(state);
+    fbd_errors_free(silent);
 }
 
 static double value_of(const struct column *column, struct column_view *view)

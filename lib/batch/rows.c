@@ -224,8 +224,11 @@ bool rows_prepare(struct rows *rows, const struct rows_source *source, const fbd
     if (refuse_errors(&rows->options, errors)) return false;
     warn_of_accuracy(rows, errors);
     errors->file = rows->source.outputs;
-    return columns_read(&rows->columns, &rows->arena, rows->base, plan->outputs, plan->output_count,
-                        plan->degrees, errors);
+    if (!columns_read(&rows->columns, &rows->arena, rows->base, plan->outputs, plan->output_count,
+                      plan->degrees, errors))
+        return false;
+    rows_warn_of_sections(rows, errors);
+    return true;
 }
 
 void rows_free(struct rows *rows)

@@ -111,9 +111,9 @@ static void draw_area(struct sheet *sheet)
     const size_t ends = fbd_section_ends(sheet->section, NULL, 0);
     double *x = calloc(ends, sizeof *x);
     struct vec *corners = calloc(ends * (samples + 1) + 2, sizeof *corners);
-    size_t count = 0;
     sheet->text.failed |= !x || !corners;
     if (x && corners) {
+        size_t count = 0;
         fbd_section_ends(sheet->section, x, ends);
         corners[count++] = at(sheet, 0, 0);
         for (size_t i = 0; i + 1 < ends; i++)

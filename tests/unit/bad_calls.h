@@ -63,6 +63,7 @@ void searches(void **context);
 void fits(void **context);
 void sweeps(void **context);
 void studies(void **context);
+void sections(void **context);
 void methods_and_simplifications(void **context);
 void grades(void **context);
 void a_key_without_an_answer(void **context);

@@ -6,6 +6,7 @@
 
 #include "fbd_find.h"
 #include "fbd_grade.h"
+#include "fbd_section.h"
 #include "fbd_study.h"
 #include "fbd_workers.h"
 
@@ -16,6 +17,24 @@ int bad_calls_count(void *context, const char *rows, size_t length)
     (void)rows;
     *(size_t *)context += length;
     return 0;
+}
+
+void sections(void **context)
+{
+    (void)context;
+    double x = 0;
+    REFUSES(fbd_section_new, !fbd_section_new(NULL, NULL, "rod", errors));
+    REFUSES(fbd_section_place, !fbd_section_place(NULL, "1 m", &x, errors));
+    ANSWERS(fbd_section_length, isnan(fbd_section_length(NULL)));
+    ANSWERS(fbd_section_source_of, !fbd_section_source_of(NULL).model);
+    ANSWERS(fbd_section_ends, fbd_section_ends(NULL, &x, 1) == 0);
+    ANSWERS(fbd_section_at, isnan(fbd_section_at(NULL, 0, false).M));
+    ANSWERS(fbd_section_load_count, fbd_section_load_count(NULL) == 0);
+    ANSWERS(fbd_section_load_get, !fbd_section_load_get(NULL, 0).name);
+    ANSWERS(fbd_section_extreme_of, isnan(fbd_section_extreme_of(NULL, 0, true).value));
+    ANSWERS(fbd_section_text, !fbd_section_text(NULL, NULL));
+    ANSWERS(fbd_section_json, !fbd_section_json(NULL, NULL));
+    ENDURES(fbd_section_free, fbd_section_free(NULL));
 }
 
 void sweeps_that_cannot_be_made(void **context)

@@ -479,6 +479,7 @@ int main(void)
         cmocka_unit_test(linearizations_and_derivations),
         cmocka_unit_test(statics),
         cmocka_unit_test(sweeps_that_cannot_be_made),
+        cmocka_unit_test(sections),
         cmocka_unit_test(searches),
         cmocka_unit_test(fits),
         cmocka_unit_test(sweeps),

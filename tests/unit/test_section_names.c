@@ -47,6 +47,14 @@ static void assert_near(double value, double expected, double size)
     assert_true(fabs(value - expected) <= 1e-9 * size);
 }
 
+static const char on_three[] =
+    "fbd: 1\nground: {points: {A: [0, 0], under_B: [2, -0.5], under_C: [4, -0.5]}}\nbodies:\n  beam:\n"
+    "    shape: rod\n    mass: 20 kg\n    length: 4 m\n    motion: planar\n    initial: {x: 2 m}\n"
+    "    forces: [gravity]\n    hand: [%s]\n"
+    "couplings:\n  - pin: {name: A, between: [beam.left, ground.A]}\n"
+    "  - rod: {name: B, between: [beam.G, ground.under_B]}\n"
+    "  - rod: {name: C, between: [beam.right, ground.under_C]}\nsimulate: {until: 1 s}\n";
+
 /* The first error is of this kind; warnings of the file may stand before it. */
 static void assert_first_error(fbd_errors *errors, const char *id)
 {
@@ -153,6 +161,21 @@ static void wrong_names_are_refused(void **unused)
                      "M(ball, 0.5 m)", "no-section");
 }
 
+static void a_beam_on_three_supports_warns(void **unused)
+{
+    (void)unused;
+    char text[2000];
+    snprintf(text, sizeof text, on_three, "");
+    const fbd_sweep_plan plan = plan_of(NULL, TEXTS("M(beam, 1 m)")), other = plan_of(NULL, TEXTS("beam.x"));
+    struct sweep_table table = open_table(text, &plan), quiet = open_table(text, &other);
+    assert_non_null(table.sweep);
+    assert_int_equal(fbd_errors_count(table.errors), 1);
+    assert_string_equal(fbd_errors_get(table.errors, 0).id, "indeterminate");
+    assert_int_equal(fbd_errors_count(quiet.errors), 0);
+    close_table(&table);
+    close_table(&quiet);
+}
+
 /* ---- questions */
 
 static void assert_found(const char *question, bool statics, fbd_solution_kind kind, double expected)
@@ -221,14 +244,6 @@ static const char block[] =
     "normal]\n    hand: [%s]\n"
     "simulate: {until: 1 s}\n";
 
-static const char on_three[] =
-    "fbd: 1\nground: {points: {A: [0, 0], under_B: [2, -0.5], under_C: [4, -0.5]}}\nbodies:\n  beam:\n"
-    "    shape: rod\n    mass: 20 kg\n    length: 4 m\n    motion: planar\n    initial: {x: 2 m}\n"
-    "    forces: [gravity]\n    hand: [%s]\n"
-    "couplings:\n  - pin: {name: A, between: [beam.left, ground.A]}\n"
-    "  - rod: {name: B, between: [beam.G, ground.under_B]}\n"
-    "  - rod: {name: C, between: [beam.right, ground.under_C]}\nsimulate: {until: 1 s}\n";
-
 static const struct hand_line lines[] = {
     {on_supports, "V(d) = A_y - w*d", true, NULL},
     {on_supports, "M(d) = A_y*d - w*d^2/2", true, NULL},
@@ -289,15 +304,11 @@ static void wrong_lines_are_refused(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_beam_on_two_supports),
-        cmocka_unit_test(a_falling_chimney),
-        cmocka_unit_test(a_rod_that_is_pushed),
-        cmocka_unit_test(a_place_beyond_the_body_fails_the_run),
-        cmocka_unit_test(wrong_names_are_refused),
-        cmocka_unit_test(values_of_parameters),
-        cmocka_unit_test(a_scene_at_rest_has_no_velocities),
-        cmocka_unit_test(lines_of_derivations),
-        cmocka_unit_test(wrong_lines_are_refused),
+        cmocka_unit_test(a_beam_on_two_supports),  cmocka_unit_test(a_falling_chimney),
+        cmocka_unit_test(a_rod_that_is_pushed),    cmocka_unit_test(a_place_beyond_the_body_fails_the_run),
+        cmocka_unit_test(wrong_names_are_refused), cmocka_unit_test(a_beam_on_three_supports_warns),
+        cmocka_unit_test(values_of_parameters),    cmocka_unit_test(a_scene_at_rest_has_no_velocities),
+        cmocka_unit_test(lines_of_derivations),    cmocka_unit_test(wrong_lines_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
