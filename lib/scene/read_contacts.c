@@ -148,6 +148,12 @@ static bool check_surface(struct reader *reader, const struct constraint *constr
 bool contact_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
 {
     const struct node *list = keys->between;
+    if (!list) {
+        diag_add(reader->errors, FBD_ERROR, "missing-key", constraint->at,
+                 "write `between: [ball, ground.floor]`, or `among: all` for all pairs",
+                 "a contact needs `between` or `among`");
+        return false;
+    }
     if (list->count != 2) {
         diag_add(reader->errors, FBD_ERROR, "wrong-type", list->at, "write [body, ground.line]",
                  "`between` needs two ends, not %zu", list->count);
