@@ -431,17 +431,6 @@ static bool keep_base(struct rest_system *system, const double *slots)
     return true;
 }
 
-/* As the scene moves only columns dependent within rounding, including the gaps of closed contacts: along
- * others the accelerations would change. */
-static double dependent_in_motion(const struct rest_system *system)
-{
-    const double rounding = 1e-11;
-    const struct tree *tree = system->state->model->tree;
-    double away = 0;
-    for (int i = 1; i < tree->count; i++) away = fmax(away, vec_norm(system->at.tree->links[i].p));
-    return fmin(dependent, rounding * (1 + away / system->length));
-}
-
 bool rest_open(struct rest_system *system, struct fbd_state *state, const struct instant *at,
                const double *slots, const double *accelerations, struct arena *arena)
 {
@@ -460,8 +449,7 @@ bool rest_open(struct rest_system *system, struct fbd_state *state, const struct
     set_scales(system);
     set_columns(system);
     double *least = ARENA_ARRAY(arena, system->m + 1, double);
-    bool made =
-        least && qr_decompose(&system->qr, system->n, system->m, system->E, dependent_in_motion(system));
+    bool made = least && qr_decompose(&system->qr, system->n, system->m, system->E, dependent_row);
     evaluate(system);
     made = made && rest_set_basis(system, least);
     system->least = least;

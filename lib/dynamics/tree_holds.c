@@ -187,13 +187,6 @@ static int pulled_against(const struct fbd_state *state, const struct decided *d
     return -1;
 }
 
-/* Redundant forces that can be within their limits with the same accelerations need none of them at a limit. */
-static void keep_shared(struct fbd_state *state, const struct rest_margin *margin)
-{
-    for (size_t pair = 0; pair < state->model->plan.mode_count; pair++)
-        if (margin->of[pair] && state->slip_barely[pair] != keeps_still) state->slip_barely[pair] = 0;
-}
-
 /* `at_limit`: inconsistent by rates only, or by a negligible amount; the changed modes are in `forced`. */
 static enum agreement look(struct fbd_state *state, const struct decided *decided, int *forced, bool solved)
 {
@@ -210,7 +203,6 @@ static enum agreement look(struct fbd_state *state, const struct decided *decide
     if (shared && margin.value < 0) /* the loss of a slide's surface is detected elsewhere */
         shared =
             tree_find_margin(state, &at, rest_without_guides, &flow, slots, slots_along, &arena, &margin);
-    if (shared && margin.value >= 0) keep_shared(state, &margin);
     int which = pulled_against(state, decided, forced), next = 0;
     if (which >= 0 || (!solved && tree_is_locked(state))) found = differs;
     for (int pair = 0; found != differs && pair < (int)state->model->plan.mode_count; pair++) {
