@@ -12,7 +12,7 @@ from claims import claim, finish
 from fbd import SOURCE
 
 PAGE = SOURCE / "lib/draw/page"
-LIVE = [SOURCE / "lib/live/page" / part for part in ("engine.js", "phrases.js", "knobs.js", "editor.js", "share.js", "values.js", "again.js", "grips.js", "pull.js", "hints.js",
+LIVE = [SOURCE / "lib/live/page" / part for part in ("engine.js", "phrases.js", "knobs.js", "editor.js", "share.js", "values.js", "check.js", "again.js", "grips.js", "pull.js", "hints.js",
                                                     "bench.js")]
 DRAWING = SOURCE / "lib/live/drawing"
 

@@ -139,6 +139,7 @@ function answeredControls(text, answer) {
   const { errors, controls } = JSON.parse(answer);
   if (text !== editor.value) return;
   showNotes(errors);
+  element("live-grade").hidden = !/^grading:/m.test(text);
   if (controls) takeControls(text, controls);
   element("live-side").classList.toggle("stale", !controls);
   for (const [key, { box }] of knobs) box.setAttribute("aria-invalid", String(!controls && key === bench.last));
@@ -165,6 +166,7 @@ const rowsUnderWay = 500;
 function askForRun(text = editor.value, rows = 0) {
   const off = offNames();
   bench.since = performance.now();
+  markVerdict(text);
   bench.coster?.stop();
   bench.runner.ask("both", [text, parts.name, off], (answer) => {
     const [controls, motion] = answer;
@@ -214,6 +216,7 @@ function connectBench() {
   listen("language", "change", speakLive);
   connectShare();
   connectValues();
+  connectCheck();
 }
 
 function setModel(text, off) {
