@@ -67,11 +67,38 @@ function drawWall([x, y], [nx, ny], half = 16) {
   hatch([x - half * ny, y + half * nx], [x + half * ny, y - half * nx], nx, ny);
 }
 
-// An arrow below a surface that runs, `away` along it from its middle; both ways if its speed varies.
+// The senses in which a surface runs: both if its speed varies, none if it rests.
+function sensesOf(speed) {
+  return speed === undefined ? [] : speed === null ? [1, -1] : [Math.sign(speed)];
+}
+
+// An arrow below a surface that runs, centred `away` along it from its middle.
 function drawRunning({ e: [ex, ey], middle, speed }, away) {
-  if (speed === undefined) return;
-  const at = [middle[0] + away * ex, middle[1] + away * ey];
-  for (const way of speed === null ? [1, -1] : [Math.sign(speed)]) plainArrow(at, [way * ex, way * ey], 30, tone.soft);
+  for (const way of sensesOf(speed)) plainArrow([middle[0] + (away - 15 * way) * ex, middle[1] + (away - 15 * way) * ey], [way * ex, way * ey], 30, tone.soft);
+}
+
+// The surfaces of bodies that run: arrows along slides and lines on them, below `[x, y]` of the canvas; arcs in bodies that
+// are met all around.
+function drawRunningBodies(frames, shows) {
+  const name = (key, speed, ...at) => { if (shows.axes && speed) wantLabel(key, measured(Math.abs(speed), run.units.speed), ...at, 0, 1, tone.soft); };
+  const draw = (key, speed, [x, y], { c, s }, [ex, ey]) => {
+    const e = [c * ex - s * ey, -s * ex - c * ey], middle = [x - 9 * e[1], y + 9 * e[0]];
+    drawRunning({ e, middle, speed }, 0);
+    name(key, speed, ...middle);
+  };
+  run.bodies.forEach(({ name: key, line }, i) => {
+    if (line?.on >= 0 && line.speed !== undefined) draw(key, line.speed, toScreen([frames[i].x, frames[i].y]), frames[line.on], line.along);
+  });
+  for (const { name: key, board, on, e, n, ends, speed } of run.couplings) {
+    if (!board || speed === undefined) continue;
+    const [x, y] = inFrame(frames[on], placed(frames[ends[0].body], ends[0].point)), radius = ends[0].radius;
+    draw(key, speed, onCanvas(frames[on], [x - radius * n[0], y - radius * n[1]]), frames[on], e);
+  }
+  for (const { body, speed } of run.surfaces) {
+    const at = body >= 0 && onCanvas(frames[body], run.bodies[body].G);
+    for (const way of at ? sensesOf(speed) : []) drawArc(at, 18, way > 0 ? -0.5 : Math.PI + 0.5, 4.1 * way, tone.soft, () => strokeWith(tone.soft, 2.2), 0);
+    if (at) name(`${body}:runs`, speed, at[0], at[1] + 18);
+  }
 }
 
 // Keep a surface of the ground for shadows and the label of its speed, which are below its `middle`.
@@ -121,7 +148,7 @@ function drawShadow({ from, e, n, length }, body, frame) {
     first = Math.min(first, s - radius);
     last = Math.max(last, s + radius);
   };
-  if (!isSized(body) && body.line) for (const corner of blockCorners(frame)) take(corner, 0);
+  if (!isSized(body) && body.line) for (const corner of blockCorners(body, frame)) take(corner, 0);
   for (const shape of body.shapes) {
     const isRound = shape.kind === "circle", radius = isRound ? shape.radius * view.scale : shape.kind === "bar" ? 4 : 0;
     for (const point of isRound ? [shape.center] : shape.corners || []) take(toScreen(shapePoint(body, frame, point)), radius);
@@ -307,9 +334,10 @@ function drawShape(body, frame, shape) {
   }
 }
 
-function blockCorners(frame) {
-  const w = view.block, h = 0.7 * view.block, [x, y] = toScreen([frame.x, frame.y]);
-  return [[w, h], [-w, h], [-w, -h], [w, -h]].map(([a, b]) => [x + a * frame.c - b * frame.s, y - a * frame.s - b * frame.c]);
+// A block stands on the line of its slide on a body with a size; elsewhere the line goes through its middle.
+function blockCorners(body, frame) {
+  const w = view.block, h = 0.7 * w, [x, y] = toScreen([frame.x, frame.y]), up = body.line.on >= 0 && isSized(run.bodies[body.line.on]) ? h : 0;
+  return [[w, up + h], [-w, up + h], [-w, up - h], [w, up - h]].map(([a, b]) => [x + a * frame.c - b * frame.s, y - a * frame.s - b * frame.c]);
 }
 
 function drawBody(body, frame) {
@@ -322,7 +350,7 @@ function drawBody(body, frame) {
     }
   }
   if (!isSized(body) && body.board) return;
-  if (!isSized(body) && body.line) { drawPlate(blockCorners(frame), tintOf(body)); return; }
+  if (!isSized(body) && body.line) { drawPlate(blockCorners(body, frame), tintOf(body)); return; }
   for (const hole of [false, true]) for (const shape of body.shapes) if (Boolean(shape.hole) === hole) drawShape(body, frame, shape);
 }
 
@@ -353,6 +381,7 @@ function drawScene(t, shows, chosen) {
   });
   run.bodies.forEach((body, i) => drawBody(body, frames[i]));
   drawTiesOver(frames, t);
+  drawRunningBodies(frames, shows);
   run.bodies.forEach((body, i) => {
     drawStops(body, frames[body.parent], shows);
     if (body.coil) drawSpiral(body, frames[i], t);

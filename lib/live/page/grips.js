@@ -36,7 +36,7 @@ function turnAbout([x, y], from, to) {
 // The outlines of a body on the canvas, as functions that trace them.
 function outlinesOf(body, frame) {
   const outer = (points) => points.map((point) => toScreen(shapePoint(body, frame, point)));
-  if (!isSized(body) && body.line) return [() => path(blockCorners(frame), true)];
+  if (!isSized(body) && body.line) return [() => path(blockCorners(body, frame), true)];
   if (body.joints.length > 1) return [() => path(body.joints.map((point) => onCanvas(frame, point)), true)];
   return body.shapes.map((shape) => () => {
     if (shape.corners) path(outer(shape.corners), shape.kind === "polygon");

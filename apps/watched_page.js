@@ -1,7 +1,7 @@
 "use strict";
 
-// A page that `fbd-run --watch` rewrites calls fbd.live(stamp) at its end. It then polls PAGE.stamp.js, which calls
-// fbd.stamp with the stamp of the last run, and reloads if that differs, keeping time and view.
+// At the end of a page that `fbd-run --watch` rewrites, which calls fbd.live(stamp) behind it. The page then polls
+// PAGE.stamp.js, which calls fbd.stamp with the stamp of the last run, and reloads if that differs, keeping time and view.
 
 const liveChoices = [...choices.map((name) => `show-${name}`), "follow", "loop"];
 const live = { own: "", asking: 0, place: `fbd ${location.pathname}` };
