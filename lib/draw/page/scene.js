@@ -87,10 +87,10 @@ function drawRunningBodies(frames, shows) {
     name(key, speed, ...middle);
   };
   run.bodies.forEach(({ name: key, line }, i) => {
-    if (line?.on >= 0 && line.speed !== undefined) draw(key, line.speed, toScreen([frames[i].x, frames[i].y]), frames[line.on], line.along);
+    if (line?.on >= 0) draw(key, line.speed, toScreen([frames[i].x, frames[i].y]), frames[line.on], line.along);
   });
   for (const { name: key, board, on, e, n, ends, speed } of run.couplings) {
-    if (!board || speed === undefined) continue;
+    if (!board) continue;
     const [x, y] = inFrame(frames[on], placed(frames[ends[0].body], ends[0].point)), radius = ends[0].radius;
     draw(key, speed, onCanvas(frames[on], [x - radius * n[0], y - radius * n[1]]), frames[on], e);
   }
@@ -335,9 +335,10 @@ function drawShape(body, frame, shape) {
 }
 
 // A block stands on the line of its slide on a body with a size; elsewhere the line goes through its middle.
-function blockCorners(body, frame) {
-  const w = view.block, h = 0.7 * w, [x, y] = toScreen([frame.x, frame.y]), up = body.line.on >= 0 && isSized(run.bodies[body.line.on]) ? h : 0;
-  return [[w, up + h], [-w, up + h], [-w, up - h], [w, up - h]].map(([a, b]) => [x + a * frame.c - b * frame.s, y - a * frame.s - b * frame.c]);
+function blockCorners({ line, share }, frame) {
+  const w = view.block * share, h = 0.7 * w, [x, y] = toScreen([frame.x, frame.y]);
+  const low = line.on >= 0 && isSized(run.bodies[line.on]) ? 0 : line.surface ? -0.7 * view.block : -h;
+  return [[w, low + 2 * h], [-w, low + 2 * h], [-w, low], [w, low]].map(([a, b]) => [x + a * frame.c - b * frame.s, y - a * frame.s - b * frame.c]);
 }
 
 function drawBody(body, frame) {
