@@ -132,6 +132,7 @@ function speakLive() {
   for (const knob of knobs.values()) nameSlider(knob.control.name, knob);
   showMeaning(editor.selectionStart);
   if (bench.said) element("live-says").textContent = phrase(bench.said.key, ...bench.said.values);
+  if (checker.said) sayChecked(...checker.said);
   showCommand();
 }
 

@@ -2,10 +2,11 @@
 
 // Derivations under `hand` compared with the assembled equations, and an answer graded by the text of the editor as its key.
 
-const checker = { asker: null, text: "" };
+const checker = { asker: null, text: "", said: null };
 
-function sayChecked(key, ...values) {
-  Object.assign(element("live-checked"), { textContent: phrase(key, ...values), className: "", lang: "" });
+function sayChecked(...said) {
+  checker.said = said;
+  element("live-checked").textContent = phrase(...said);
 }
 
 // Ask the library about the text of the editor; its errors are shown, and else show(the value under `key`).
