@@ -33,9 +33,9 @@ UNDECIDED = {"cradle"}
 SLOW = {"million_revolutions", "long_pendulum"}  # minutes in a browser on a busy machine
 
 WORKER = """
-    const asked = arguments[0], asker = makeAsker(() => {});
-    const answer = await new Promise((done) => asker.ask(asked, [bench.own, parts.name, ""], done));
-    asker.worker.terminate();
+    const asked = arguments[0], client = makeClient(() => {});
+    const answer = await new Promise((done) => client.request(asked, [bench.own, parts.name, ""], done));
+    client.worker.terminate();
     return answer;"""
 
 
@@ -554,15 +554,15 @@ def check_speed(browser, folder):
                   while (wait()) await new Promise((done) => setTimeout(done, 0));
                   plots.push(performance.now() - start);
                 }
-                const asker = makeAsker(() => {}), question = [editor.value, parts.name, ""];
+                const client = makeClient(() => {}), question = [editor.value, parts.name, ""];
                 for (let i = 0; i < 24; i++) {
                   const start = performance.now();
-                  const [, answer] = await new Promise((done) => asker.ask("both", question, done, [rowsUnderWay])), asked = performance.now();
+                  const [, answer] = await new Promise((done) => client.request("both", question, done, [rowsUnderWay])), asked = performance.now();
                   showAgain(JSON.parse(answer).data);
                   running.push(asked - start);
                   drawing.push(performance.now() - asked);
                 }
-                asker.worker.terminate();
+                client.worker.terminate();
                 return [whole, plots, running, drawing].map((list) => list.sort((a, b) => a - b));""", name)
             print(f"# {model.stem}: median {whole[len(whole) // 2]:.0f} ms, least {whole[0]:.0f} ms; of it the run {running[0]:.1f} ms, "
                   f"the scene {drawing[0]:.1f} ms at least; with all plots {plots[len(plots) // 2]:.0f} ms, {plots[0]:.0f} ms")

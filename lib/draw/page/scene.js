@@ -77,27 +77,28 @@ function drawRunning({ e: [ex, ey], middle, speed }, away) {
   for (const way of sensesOf(speed)) plainArrow([middle[0] + (away - 15 * way) * ex, middle[1] + (away - 15 * way) * ey], [way * ex, way * ey], 30, tone.soft);
 }
 
-// The surfaces of bodies that run: arrows along slides and lines on them, below `[x, y]` of the canvas; arcs in bodies that
-// are met all around.
+function nameSpeed(key, speed, at, way, shows) {
+  if (shows.axes && speed) wantLabel(`${key}:runs`, measured(Math.abs(speed), run.units.speed), ...at, ...way, tone.soft);
+}
+
+// The surfaces of bodies that run: arrows along slides and lines, arcs in bodies that contacts meet all around.
 function drawRunningBodies(frames, shows) {
-  const name = (key, speed, ...at) => { if (shows.axes && speed) wantLabel(key, measured(Math.abs(speed), run.units.speed), ...at, 0, 1, tone.soft); };
   const draw = (key, speed, [x, y], { c, s }, [ex, ey]) => {
     const e = [c * ex - s * ey, -s * ex - c * ey], middle = [x - 9 * e[1], y + 9 * e[0]];
     drawRunning({ e, middle, speed }, 0);
-    name(key, speed, ...middle);
+    nameSpeed(key, speed, middle, [0, 1], shows);
   };
-  run.bodies.forEach(({ name: key, line }, i) => {
-    if (line?.on >= 0) draw(key, line.speed, toScreen([frames[i].x, frames[i].y]), frames[line.on], line.along);
-  });
-  for (const { name: key, board, on, e, n, ends, speed } of run.couplings) {
+  run.bodies.forEach(({ name, line }, i) => { if (line?.on >= 0) draw(name, line.speed, onCanvas(frames[i], [0, 0]), frames[line.on], line.along); });
+  for (const { name, board, on, e, n, ends: [{ body, point, radius }], speed } of run.couplings) {
     if (!board) continue;
-    const [x, y] = inFrame(frames[on], placed(frames[ends[0].body], ends[0].point)), radius = ends[0].radius;
-    draw(key, speed, onCanvas(frames[on], [x - radius * n[0], y - radius * n[1]]), frames[on], e);
+    const [x, y] = inFrame(frames[on], placed(frames[body], point));
+    draw(name, speed, onCanvas(frames[on], [x - radius * n[0], y - radius * n[1]]), frames[on], e);
   }
   for (const { body, speed } of run.surfaces) {
-    const at = body >= 0 && onCanvas(frames[body], run.bodies[body].G);
-    for (const way of at ? sensesOf(speed) : []) drawArc(at, 18, way > 0 ? -0.5 : Math.PI + 0.5, 4.1 * way, tone.soft, () => strokeWith(tone.soft, 2.2), 0);
-    if (at) name(`${body}:runs`, speed, at[0], at[1] + 18);
+    if (body === undefined) continue;
+    const at = onCanvas(frames[body], run.bodies[body].G);
+    for (const way of sensesOf(speed)) drawArc(at, 18, way > 0 ? -0.5 : Math.PI + 0.5, 4.1 * way, tone.soft, () => strokeWith(tone.soft, 2.2), 0);
+    nameSpeed(body, speed, [at[0], at[1] + 18], [0, 1], shows);
   }
 }
 
@@ -378,7 +379,7 @@ function drawScene(t, shows, chosen) {
   view.grounds.forEach((ground, k) => {
     const { n: [nx, ny], middle, speed } = ground;
     run.bodies.forEach((body, i) => drawShadow(ground, body, frames[i]));
-    if (shows.axes && speed) wantLabel(`${k}:runs`, measured(Math.abs(speed), run.units.speed), ...middle, -nx, -ny, tone.soft);
+    nameSpeed(`ground ${k}`, speed, middle, [-nx, -ny], shows);
   });
   run.bodies.forEach((body, i) => drawBody(body, frames[i]));
   drawTiesOver(frames, t);

@@ -2,7 +2,7 @@
 
 // Derivations under `hand` compared with the assembled equations, and an answer graded by the text of the editor as its key.
 
-const checker = { asker: null, text: "", said: null };
+const checker = { client: null, text: "", said: null };
 
 function sayChecked(...said) {
   checker.said = said;
@@ -10,14 +10,14 @@ function sayChecked(...said) {
 }
 
 // Ask the library about the text of the editor; its errors are shown, and else show(the value under `key`).
-function askChecker(call, texts, key, showAnswer) {
+function requestCheck(call, texts, key, showAnswer) {
   checker.text = editor.value;
   element("live-verdict").replaceChildren();
   markVerdict(checker.text);
   sayChecked("live-checking");
-  checker.asker = checker.asker || makeAsker(() => {});
-  checker.asker.failed = (message) => sayChecked("live-check-failed", message);
-  checker.asker.ask(call, texts, (answer) => {
+  checker.client = checker.client || makeClient(() => {});
+  checker.client.failed = (message) => sayChecked("live-check-failed", message);
+  checker.client.request(call, texts, (answer) => {
     const found = JSON.parse(answer || "{\"errors\":[],\"\":null}"), wrong = found.errors.filter(({ severity }) => severity === "error");
     if (found[key] && !wrong.length) { showAnswer(found[key]); return; }
     sayChecked("live-unchecked");
@@ -63,12 +63,12 @@ async function gradeAnswer() {
   const box = element("live-answer"), [file] = box.files;
   if (!file) return;
   const student = file.name.replace(/\.\w+$/, ""), text = await file.text();
-  askChecker("grade", [editor.value, "", text, student], "grade", (grade) => showGrade(grade, student));
+  requestCheck("grade", [editor.value, "", text, student], "grade", (grade) => showGrade(grade, student));
   box.value = ""; // the same file may be graded again
 }
 
 function connectCheck() {
-  element("live-hand").addEventListener("click", () => askChecker("check_hand", [editor.value, parts.name], "hand", showHand));
+  element("live-hand").addEventListener("click", () => requestCheck("check_hand", [editor.value, parts.name], "hand", showHand));
   element("live-grade").addEventListener("click", () => element("live-answer").click());
   element("live-answer").addEventListener("change", gradeAnswer);
 }
