@@ -490,7 +490,7 @@ def check_effects(browser, folder):
         settled(browser, "setModel(bench.own, [])")
         wait_for(browser, "location.hash === ''")
         open_live(browser, path, fragment)
-        wait_for(browser, "bench.off.has('block.friction')")
+        wait_for(browser, "bench.off.has('block.friction') && bench.runFor === editor.value + offNames()")
         assert not browser.run("return run.columns.some((column) => column.n === 'block.friction')")
     with claim("switched on again, it is there"):
         settled(browser, "document.querySelector('[data-effect=\"block.friction\"]').click()")
