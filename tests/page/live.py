@@ -133,6 +133,11 @@ def check_sliders(browser, folder):
         names = browser.run("return [...document.querySelectorAll('#live .knob')].map((row) => row.firstChild.textContent + ' ' + row.lastChild.value)")
         for name in ("phi 30 deg", "mu_s 0.5", "v0 3 m/s", "block.x 0 m", "block.v v0", "until 3 s"):
             assert name in names, (name, names)
+    with claim("every control is 24 pixels high at least, also where it is folded away"):
+        small = browser.run("for (const part of document.querySelectorAll('details')) part.open = true; "
+                            "return [...document.querySelectorAll('button, select, input, summary')].map((node) => [node.id || node.ariaLabel || node.textContent, "
+                            "node.getBoundingClientRect().height]).filter(([, height]) => height > 0 && height < 24);")
+        assert not small, small
     with claim("a slider that is dragged by the mouse runs the model anew, and writes into its text"):
         box = browser.run(SLIDER.format("phi") + "slider.scrollIntoView(); const r = slider.getBoundingClientRect(); return [r.left, r.top, r.width, r.height];")
         before = browser.run("return bench.shown")
