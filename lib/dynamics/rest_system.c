@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/disjoint_sets.h"
 #include "dynamics/friction.h"
 #include "dynamics/tree_system.h"
 #include "dynamics/world_refs.h"
@@ -247,19 +248,13 @@ static bool keep_limits(struct rest_system *system)
 /* Relative tolerance for dependent columns of E. */
 static const double dependent = solved_rounding;
 
-static int top_of(const int *set, int i)
-{
-    while (set[i] != i) i = set[i];
-    return i;
-}
-
 /* The set of the bodies of row j; 0 if it acts on none that moves. */
 static int set_of_row(const struct rest_system *system, int j)
 {
     const struct row *row = &system->at.tree->rows[j];
     const struct tree_link *links = system->state->model->tree->links;
     for (int i = 0; i < row->port_count; i++)
-        if (row->ports[i].link != 0) return top_of(system->set, links[row->ports[i].link].root);
+        if (row->ports[i].link != 0) return sets_first(system->set, links[row->ports[i].link].root);
     return 0;
 }
 
@@ -270,9 +265,8 @@ static void join_ports(struct rest_system *system, const struct row *row)
     for (int i = 0; i < row->port_count; i++) {
         int link = row->ports[i].link;
         if (link == 0) continue;
-        int top = top_of(system->set, links[link].root);
-        if (first == 0) first = top;
-        system->set[top] = first;
+        if (first > 0) sets_join(system->set, first, links[link].root);
+        first = links[link].root;
     }
 }
 
