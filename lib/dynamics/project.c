@@ -74,7 +74,7 @@ static void release(const struct place *place)
 
 static struct misfit misfit_of(const struct place *place)
 {
-    struct misfit misfit = {.row = -1, .velocity_row = -1};
+    struct misfit misfit = {.row = -1};
     for (int j = 0; j < place->model->tree->row_count; j++) {
         const struct row *row = &place->at.tree->rows[j];
         if (!tree_takes_part(place->model->tree, &place->at, j)) continue;
@@ -82,10 +82,7 @@ static struct misfit misfit_of(const struct place *place)
             misfit.position = fabs(row->g.x);
             misfit.row = j;
         }
-        if (!(fabs(row->g.x1) <= misfit.velocity)) {
-            misfit.velocity = fabs(row->g.x1);
-            misfit.velocity_row = j;
-        }
+        if (!(fabs(row->g.x1) <= misfit.velocity)) misfit.velocity = fabs(row->g.x1);
     }
     return misfit;
 }
@@ -117,7 +114,7 @@ double state_acceleration_misfit(const struct fbd_state *state, int *row)
 
 struct misfit state_misfit(struct fbd_state *state)
 {
-    if (!has_couplings(state->model)) return (struct misfit){0, 0, -1, -1};
+    if (!has_couplings(state->model)) return (struct misfit){0, 0, -1};
     struct place place = place_of(state, false);
     look(&place);
     return misfit_of(&place);

@@ -376,7 +376,6 @@ bool rest_solve(struct rest_system *system, struct fbd_state *state, struct aren
     const struct plan *plan = &state->model->plan;
     *system = (struct rest_system){.state = state,
                                    .at = state_instant(state),
-                                   .accelerations = state->a,
                                    .forces = state->slots,
                                    .arena = arena,
                                    .n = (size_t)plan->n,
@@ -437,15 +436,11 @@ static double dependent_in_motion(const struct rest_system *system)
 }
 
 bool rest_open(struct rest_system *system, struct fbd_state *state, const struct instant *at,
-               const double *slots, const double *accelerations, struct arena *arena)
+               const double *slots, struct arena *arena)
 {
     const struct plan *plan = &state->model->plan;
-    *system = (struct rest_system){.state = state,
-                                   .at = *at,
-                                   .accelerations = accelerations,
-                                   .arena = arena,
-                                   .n = (size_t)plan->n,
-                                   .slots = (size_t)plan->slots};
+    *system = (struct rest_system){
+        .state = state, .at = *at, .arena = arena, .n = (size_t)plan->n, .slots = (size_t)plan->slots};
     if (!rest_is_open(state->model, at)) return false;
     if (!allocate(system, true) || !keep_base(system, slots) || !find_sizes(system)) return false;
     for (size_t j = 0; system->force == 0 && j < system->m; j++) /* for rotations without a load */

@@ -55,7 +55,6 @@ struct fbd_section {
     size_t load_count, piece_count, piece_room, lump_count;
     struct section_load *loads;
     struct section_piece *pieces;
-    const char **lumps;          /* parts that count as concentrated at their centres */
     double size[section_forces]; /* sums of the magnitudes of all loads, for rounding */
     fbd_section_extreme extremes[section_forces][2];
 };
