@@ -232,7 +232,7 @@ static bool keep_limits(struct rest_system *system)
 {
     enum { most_cuts = 60 };
     double *w = ARENA_ARRAY(system->arena, system->basis_count + 1, double), size;
-    const bool planes = system->state->model->tree && system->state->model->tree->plane_count > 0;
+    const bool planes = system->state->model->tree->plane_count > 0;
     if (!w) return false;
     for (int cut = 0;; cut++) {
         if (!find_within(system, w, &size)) return false;
@@ -293,7 +293,7 @@ static bool allocate(struct rest_system *system, bool among_weak)
     const struct fbd_model *model = system->state->model;
     const struct tree *tree = model->tree;
     struct arena *arena = system->arena;
-    size_t rows = (size_t)(tree ? tree->row_count : 0);
+    size_t rows = (size_t)tree->row_count;
     const struct instant at = system->at;
     system->rows = ARENA_ARRAY(arena, rows + 1, int);
     const int *weak = among_weak ? weak_sets(system) : NULL;
@@ -301,10 +301,10 @@ static bool allocate(struct rest_system *system, bool among_weak)
         if (tree_takes_part(tree, &at, j) && (!weak || weak[set_of_row(system, j)]))
             system->rows[system->m++] = j;
     size_t n = system->n, m = system->m;
-    system->reactions = m + 3 * (size_t)(tree ? tree->count - 1 : 0);
+    system->reactions = m + 3 * (size_t)(tree->count - 1);
     system->held = ARENA_ARRAY(arena, n + 1, bool);
     system->scale = ARENA_ARRAY(arena, n + 1, double);
-    system->reached = ARENA_ARRAY(arena, (size_t)(tree ? tree->count : 0) + 1, bool);
+    system->reached = ARENA_ARRAY(arena, (size_t)tree->count + 1, bool);
     system->lambda = ARENA_ARRAY(arena, rows + 1, double);
     system->Q = ARENA_ARRAY(arena, n + 1, double);
     system->E = ARENA_ARRAY(arena, n * m + 1, double);
@@ -401,7 +401,6 @@ void rest_free(struct rest_system *system)
 
 bool rest_is_open(const struct fbd_model *model, const struct instant *at)
 {
-    if (!model->tree) return false;
     for (int j = 0; j < model->tree->row_count; j++)
         if (at->tree->rows[j].weak && tree_takes_part(model->tree, at, j)) return true;
     return false;
