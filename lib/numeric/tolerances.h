@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Tolerances of numeric, integrate, model, events, record, holds and rest: each with its unit, meaning and reason. A number
- * of this kind elsewhere in these rooms fails a test (tests/tools/check_files). Numbers without a unit are relative to the
- * size that is named with them.
+ * Tolerances of numeric, integrate, model, events, record, holds, rest and section: each with its unit, meaning and reason.
+ * A number of this kind elsewhere in these rooms fails a test (tests/tools/check_files). Numbers without a unit are relative
+ * to the size that is named with them.
  */
 #ifndef FBD_NUMERIC_TOLERANCES_H
 #define FBD_NUMERIC_TOLERANCES_H

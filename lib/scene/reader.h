@@ -51,7 +51,7 @@ struct table_draft {
 
 /* Reader's data of a user state, beside its entry in the scene. */
 struct own_draft {
-    const struct node *node, *rate, *initial, *unit;
+    const struct node *rate, *initial, *unit;
     enum progress progress; /* of its dimension */
     double factor;          /* of its unit */
     const struct expr *start;
