@@ -62,11 +62,10 @@ struct pivoting_problem {
     size_t count;
     struct pivoting_row *rows;
     const double *A; /* count x count, row by row */
-    bool
-        basic; /* the forces of a basis, as many as can be at their limits, in place of the least, where rows that
-                      * are independent by less than `dependent_row` depend on others */
-    bool examine; /* enumerate all solutions of blocks of at most pivoting_few rows */
-    double size;  /* a size of w / sqrt(A_ii) relative to which w may be round-off, beside that of b */
+    bool basic;      /* the forces of a basis, as many as can be at their limits, in place of the least */
+    bool coarse;     /* rows that are independent by less than `dependent_row` depend on others */
+    bool examine;    /* enumerate all solutions of blocks of at most pivoting_few rows */
+    double size;     /* a size of w / sqrt(A_ii) relative to which w may be round-off, beside that of b */
 };
 
 /* In the order of their weight: of several blocks the last one counts. */

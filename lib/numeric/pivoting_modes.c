@@ -168,11 +168,10 @@ static void remove_from_others(struct fit *fit, size_t k)
     }
 }
 
-/* Remainders, relative to the largest row, that count as zero: modes by the forces of a basis are those of equations of
- * motion whose rows are shifted. */
+/* Remainders, relative to the largest row, that count as zero. */
 static double negligible_remainder(const struct fit *fit)
 {
-    return fit->block->basic ? dependent_row : pivoting_zero;
+    return fit->block->coarse ? dependent_row : pivoting_zero;
 }
 
 /* The rank of K, and x as its least solution. */
@@ -270,7 +269,7 @@ static bool has_sign(const struct fit *fit, size_t i)
     struct pivoting_row *row = &fit->block->rows[i];
     double level = fit->block->level;
     if (fit->place[i] < fit->block->n)
-        return fabs(row->w) <= (fit->block->basic ? shift_of_rows / solved_rounding : 1) * level;
+        return fabs(row->w) <= (fit->block->coarse ? shift_of_rows / solved_rounding : 1) * level;
     if (fit->is_loose[i]) return true;
     return row->mode == at_high ? row->w <= level : row->w >= -level;
 }
