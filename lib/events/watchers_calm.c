@@ -4,6 +4,7 @@
  */
 #include "dynamics/friction.h"
 #include "dynamics/modes.h"
+#include "dynamics/rest_system.h"
 #include "dynamics/tree.h"
 #include "dynamics/tree_driven.h"
 #include "events/watchers.h"
@@ -31,7 +32,8 @@ static double blocked_band(const struct fbd_state *state, int pair, double v)
 {
     const struct instant at = state_instant(state);
     const double limit = acceleration_at_limit(state, pair), band = dependent_row * limit * fabs(state->t);
-    return v <= band && fabs(tree_hold_acceleration(state, &at, pair)) <= dependent_row * limit ? band : 0;
+    bool still = v <= band && fabs(tree_hold_acceleration(state, &at, pair)) <= dependent_row * limit;
+    return still && rest_is_open(state->model, &at) ? band : 0;
 }
 
 /* Twice the speed with which a slipping pair still moves against its slip direction although it accelerates
