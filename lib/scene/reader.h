@@ -132,7 +132,6 @@ struct reader {
     bool varies;                 /* the expression being compiled is valid for this reading only */
     bool names_parameters;       /* the table or definition being read names a parameter or gravity */
     bool names_input;            /* the expression that is compiled names an input */
-    const struct override *time; /* of the input that replaces the time, or NULL */
 
     int inside; /* the body whose block is being read, or ground_body */
     struct names constant_names;
