@@ -46,12 +46,13 @@ void sliding_init(struct sliding *sliding, const struct fbd_model *model, void *
            switches = most_switches(plan);
     sliding->slides = memory;
     double *next = (double *)(sliding->slides + room);
-    double **const parts[] = {&sliding->M,        &sliding->lu,     &sliding->B,           &sliding->c,
-                              &sliding->delta,    &sliding->step,   &sliding->u,           &sliding->rate,
-                              &sliding->rounding, &sliding->slots,  &sliding->slots_along, &sliding->a,
-                              &sliding->a_along,  &sliding->flow,   &sliding->zero,        &sliding->kept_y,
-                              &sliding->own_y,    &sliding->own_dy, &sliding->best,        &sliding->moved,
-                              &sliding->as_fast,  &sliding->shifted_held, &sliding->shifted};
+    double **const parts[] = {
+        &sliding->M,        &sliding->lu,           &sliding->B,           &sliding->c,
+        &sliding->delta,    &sliding->step,         &sliding->u,           &sliding->rate,
+        &sliding->rounding, &sliding->slots,        &sliding->slots_along, &sliding->a,
+        &sliding->a_along,  &sliding->flow,         &sliding->zero,        &sliding->kept_y,
+        &sliding->own_y,    &sliding->own_dy,       &sliding->best,        &sliding->moved,
+        &sliding->as_fast,  &sliding->shifted_held, &sliding->shifted};
     const size_t sizes[] = {room * room,
                             room * room,
                             n * room,

@@ -83,7 +83,8 @@ double poles_longest_step(struct poles *poles, const struct fbd_state *state, co
     struct instant now = state_instant(state), at = instant_extend(state->model, &now);
     memcpy(poles->dy, state->y + n, n * sizeof(double));
     memcpy(poles->dy + n, state->a, plan_rates(plan) * sizeof(double));
-    const struct direction motion = {.dt = 1, .dy = poles->dy}, flow = direction_extend(state->model, &at, &motion);
+    const struct direction motion = {.dt = 1, .dy = poles->dy},
+                           flow = direction_extend(state->model, &at, &motion);
     divisors_at(state->model, &at, &flow, poles->start, poles->rate);
     for (size_t i = 0; i < plan->pole_count; i++) {
         double change;
