@@ -14,7 +14,6 @@
 #include "base/diag.h"
 #include "fbd_view.h"
 #include "output/world.h"
-#include "rest/equilibrium.h"
 
 /* The quantity that an output measures. */
 struct output {
@@ -149,8 +148,7 @@ static bool choose_signals(struct building *building, const fbd_linear_plan *pla
 static bool refuse_inputs(const struct building *building)
 {
     diag_add(building->errors, FBD_ERROR, "no-derivatives", (struct pos){0, 0}, NULL,
-             "the linear motion by the inputs is not determined: the file has `hysteresis`, or an input "
-             "changes the length of a rope");
+             "the linear motion by the inputs is not determined: the file has `hysteresis`");
     return false;
 }
 
@@ -198,12 +196,11 @@ static bool make_B(const struct building *building)
     if (refuse_callbacks(building)) return false;
     struct fbd_model *with = model_with_held_inputs(building->model);
     if (!with) return false;
-    const bool meant = !equilibrium_refuse_reels(with, NULL);
-    fbd_state *state = meant ? state_with_held_inputs(building->system->linear->state, with) : NULL;
+    fbd_state *state = state_with_held_inputs(building->system->linear->state, with);
     const bool made = state && make_columns(building, state);
     state_free(state);
     model_free(with);
-    return meant ? made : refuse_inputs(building);
+    return made;
 }
 
 /* ---- C and D */
