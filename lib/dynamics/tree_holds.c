@@ -133,7 +133,7 @@ static int next_mode(const struct fbd_state *state, const struct decided *decide
         return now.force < -beyond * nothing || *by_rate ? slip_plus : stick;
     }
     if (state->slip[pair] != stick) return turns_back(state, pair) ? stick : state->slip[pair];
-    struct direction flow = {1, state_scratch(state).dy};
+    struct direction flow = {.dt = 1, .dy = state_scratch(state).dy};
     struct friction_values now = friction_at(model, pair, &at, slots);
     struct friction_values rate = friction_along(model, pair, &at, slots, &flow, slots_along);
     double excess = fabs(now.hold) - now.limit;

@@ -35,7 +35,7 @@ static bool starts_by_rounding(const struct run *run, size_t i, double a)
 static void vary(struct run *run, const struct instant *at, const double *dy, double *along)
 {
     struct scratch scratch = state_scratch(run->state);
-    const struct direction direction = {0, dy};
+    const struct direction direction = {.dy = dy};
     accelerations_along(run->model, at, &direction, scratch.slots, scratch.slots_along, along);
     if (run->model->plan.own > 0)
         user_state_rates_along(run->model, at, &direction, along + run->model->plan.n);

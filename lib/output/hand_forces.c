@@ -412,7 +412,9 @@ static struct fbd_model *compile(const struct document *document, const struct o
                                  size_t count, fbd_errors *errors)
 {
     struct scene *scene = scene_make(document, overrides, count, errors);
-    return scene ? model_compile(scene, errors) : NULL;
+    struct fbd_model *model = scene ? model_compile(scene, errors) : NULL;
+    if (model) model_note_potentials(model, errors);
+    return model;
 }
 
 /* The sections that derivations name exist. */

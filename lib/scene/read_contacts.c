@@ -117,7 +117,13 @@ static bool is_none(const struct value *mu)
 bool surface_speed_read(struct reader *reader, const struct value *speed, struct constraint *constraint)
 {
     const int *slots;
-    if (!speed->expr || (expr_is_constant(speed->expr) && expr_value(speed->expr) == 0)) return true;
+    if (!speed->expr) return true;
+    if (speed->by_input) {
+        diag_add(reader->errors, FBD_ERROR, "not-here", speed->at, "let a force on a body follow the input",
+                 "`surface_speed` cannot name an input here: a body that sticks would jump with it");
+        return false;
+    }
+    if (expr_is_constant(speed->expr) && expr_value(speed->expr) == 0) return true;
     constraint->surface_speed = *speed;
     if (expr_variables(speed->expr, &slots) > 0) {
         diag_add(reader->errors, FBD_ERROR, "not-here", speed->at, "write it as an expression of t",
