@@ -179,8 +179,7 @@ static double unseen_place(const struct run *run, const struct model_body *body,
 {
     const struct tree *tree = run->model->tree;
     double reach = 0;
-    for (int i = 1; i < tree->joined; i++)
-        reach = fmax(reach, vec_norm(run->state->tree->links[i].p));
+    for (int i = 1; i < tree->joined; i++) reach = fmax(reach, vec_norm(run->state->tree->links[i].p));
     for (int i = 0; i < tree->coupling_count; i++) reach = fmax(reach, coupling_extent(&tree->couplings[i]));
     return round_off(1, 1) / run->options.tolerance * (coordinate_is_angle(body, k) ? 1 : reach);
 }

@@ -117,7 +117,8 @@ static void events_name_the_contacts_of_pairs(void **unused)
         "[gravity, applied: "
         "{name: F, value: \"10[N/s]*t\", angle: -90 deg}]}\n"
         "contacts: all\n"
-        "simulate: {until: 2 s, events: [{name: pressed, when: contact_a_floor.normal > 15 N, stop: true}]}\n");
+        "simulate: {until: 2 s, events: [{name: pressed, when: contact_a_floor.normal > 15 N, stop: "
+        "true}]}\n");
     const fbd_options options = FBD_OPTIONS_DEFAULT;
     struct checks checks = {0};
     trial_start(&trial, &options);
