@@ -26,7 +26,7 @@ static double speed_to_come(const struct fbd_state *state, int pair)
     return acceleration_at_limit(state, pair) * fabs(state->t);
 }
 
-/* A band for the speed of a pair at its limit that other constraints block: its acceleration is what the shift of dependent
+/* A band for the speed of a pair at its limit that other constraints block: its acceleration is that left by the shift of dependent
  * rows leaves. It stays at its limit as long as they do. 0 for others. */
 static double blocked_band(const struct fbd_state *state, int pair, double v)
 {
