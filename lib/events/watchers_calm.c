@@ -27,7 +27,7 @@ static double speed_to_come(const struct fbd_state *state, int pair)
 }
 
 /* A band for the speed of a pair at its limit that other constraints block: its acceleration is that left by the shift of dependent
- * rows leaves. It stays at its limit as long as they do. 0 for others. */
+ * rows. It stays at its limit as long as they do. 0 for others. */
 static double blocked_band(const struct fbd_state *state, int pair, double v)
 {
     const struct instant at = state_instant(state);
