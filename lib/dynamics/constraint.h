@@ -71,9 +71,9 @@ struct coupling_state {
     double laid[2];   /* at the start: wound length on the end discs; belt: its rows; weld: end 0 in link 1 */
     double foot;      /* slot: the arc length of its point, by constraints_follow */
     struct vec e, n;  /* plane friction: direction of its first row; of its force while it slips; */
-    double nu,
-        size;    /* and the speeds nu and, at the start of the step, those of which it is the difference */
-    int feature; /* contact: its feature; no_feature while it is open */
+    double nu, across; /* the speeds nu and, across e, that of round-off (plane_friction.h); */
+    bool gently;       /* it begins to slip without an acceleration of its own */
+    int feature;       /* contact: its feature; no_feature while it is open */
 };
 
 enum { no_feature = -1 };

@@ -61,18 +61,19 @@ struct plane_speed {
 };
 struct plane_speed plane_speed(const struct fbd_model *model, const struct tree_work *work, int index);
 
-/* Does a body begin to slip at several points? The directions of their forces then follow that of its motion at rates that
- * are unlimited. */
+/* Does a point begin to slip without an acceleration of its own, or a body at several points? The directions of their forces
+ * then follow that of the motion at rates that are unlimited. */
 bool planes_set_out(struct fbd_state *state);
 
 /* Are both couplings points of one body on one plane? */
 bool planes_are_one(const struct tree *tree, int one, int other);
 
-/* Let a point begin to slip with a velocity along both rows. */
-void plane_set_out(struct fbd_state *state, int pair, struct vec along);
+/* Let a point begin to slip with a velocity along both rows; `gently`: without an acceleration of its own. */
+void plane_set_out(struct fbd_state *state, int pair, struct vec along, bool gently);
 
-/* Direct e along that velocity. */
-void plane_aim(const struct fbd_model *model, struct tree_work *work, int index);
+/* Let the path of a point begin in the direction e, or in that of its velocity, with nu of its speeds at the instant. */
+void plane_begin(const struct fbd_model *model, const struct instant *at, int index, struct vec e);
+void plane_aim(const struct fbd_model *model, const struct instant *at, int index);
 
 /* Decide all of them at an evaluated state; true when the modes stay as they are. Sets state->holds when memory is
  * out. */

@@ -118,6 +118,7 @@ struct tree_work {
     double *scale;                       /* unknowns: largest possible diagonals, see constraint_solve.c */
     double damping;         /* of a projection: relative squares of slopes below this are damped out */
     double accuracy;        /* relative, of projected coordinates */
+    double tolerance;       /* of the run, relative; 0 without one */
     bool projecting;        /* the system is set up for a projection: no friction */
     bool tentative;         /* modes are tried: a motion without inertia keeps some of the added one */
     bool placing;           /* a projection: inertias that are added are part of its metric */

@@ -23,7 +23,7 @@ bool plane_only_turns(struct run *run, int pair)
     const struct instant at = state_instant(run->state);
     tree_move(run->model, &at);
     if (is_slow(run, pair)) return false;
-    plane_aim(run->model, run->state->tree, run->model->plan.modes[pair].coupling);
+    plane_aim(run->model, &at, run->model->plan.modes[pair].coupling);
     return true;
 }
 

@@ -47,6 +47,10 @@ static const double soft_part = 1e-10;
  * the same size across that direction. */
 static const double soft_speeds = 1e3;
 
+/* The speed, relative to that one, with which a point may return without a stop: a start from rest has velocities of round-off
+ * in both directions. */
+static const double soft_return = 1e-3;
+
 /* ---- files */
 
 /* Digits of numbers in a file: directions and positions that agree in nine digits are meant to be equal. */
