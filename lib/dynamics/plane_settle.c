@@ -150,7 +150,8 @@ void plane_set_out(struct fbd_state *state, int pair, struct vec along, bool gen
     const struct instant at = state_instant(state);
     const int index = mode_of(state, pair)->coupling;
     const struct vec e = state->tree->couplings[index].e;
-    if (vec_norm(along) > 0) plane_begin(state->model, &at, index, vec_turn(e, vec_scale(1 / vec_norm(along), along)));
+    if (vec_norm(along) > 0)
+        plane_begin(state->model, &at, index, vec_turn(e, vec_scale(1 / vec_norm(along), along)));
     state->tree->couplings[index].gently = gently;
 }
 
@@ -219,8 +220,7 @@ void planes_aim(struct fbd_state *state)
     const struct instant at = state_instant(state);
     tree_move(state->model, &at);
     for (int i = 0; i < state->model->tree->coupling_count; i++)
-        if (state->model->tree->couplings[i].kind == constraint_plane)
-            plane_aim(state->model, &at, i);
+        if (state->model->tree->couplings[i].kind == constraint_plane) plane_aim(state->model, &at, i);
 }
 
 void plane_unstick(struct fbd_state *state, int pair)

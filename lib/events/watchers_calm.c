@@ -47,7 +47,8 @@ static void calm_beginning(struct watchers *watchers, const struct fbd_state *st
            *fast = &watchers->fast[pair];
     watchers->quiet[pair] = short_of_side(state, (int)pair, slip_side(state->slip[pair]) * along);
     *fast = fmax(*fast, v);
-    if (mode->kind == mode_plane) watchers->quiet[pair] = soft_return * state->tree->couplings[mode->coupling].nu;
+    if (mode->kind == mode_plane)
+        watchers->quiet[pair] = soft_return * state->tree->couplings[mode->coupling].nu;
     if (mode->kind == mode_plane) return;
     if (v == 0) *fast = fmax(*fast, speed_to_come(state, (int)pair));
     if (v > 0 && (step > instant * fabs(state->t) || v > least * *fast)) return;

@@ -179,13 +179,13 @@ bool log_user_events(struct run *run, double t)
     return true;
 }
 
-/* Does a point on a plane stop? */
-static bool any_plane_stop(const struct run *run, const bool *crossed)
+/* Does a point on a plane stop, or reach its limit? */
+static bool any_on_plane(const struct run *run, const bool *crossed, enum watcher_kind kind)
 {
     const struct watcher_set *set = &run->watchers.moving;
     bool any = false;
     for (size_t i = 0; crossed && i < set->count; i++)
-        any |= crossed[i] && set->watchers[i].kind == watch_slip_stop &&
+        any |= crossed[i] && set->watchers[i].kind == kind &&
                mode_of(run->state, set->watchers[i].index)->kind == mode_plane;
     return any;
 }
@@ -443,7 +443,9 @@ static void apply_once(struct run *run, const bool *timed, const bool *moving)
     const struct watcher_set *sets[] = {&run->watchers.timed, &run->watchers.moving};
     const bool *crossed[] = {timed, moving};
     const bool crossing = any_switch(&run->watchers.timed, timed) ||
-                          any_switch(&run->watchers.moving, moving) || any_plane_stop(run, moving);
+                          any_switch(&run->watchers.moving, moving) ||
+                          any_on_plane(run, moving, watch_slip_stop) ||
+                          (any_on_plane(run, moving, watch_stick_limit) && planes_stop_slow(run));
     memset(run->decided.branches, 0, ((size_t)plan->branches + 3 * plan->mode_count) * sizeof(bool));
     contacts_begin_events(run);
     rest_held(run);
