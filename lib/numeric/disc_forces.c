@@ -98,6 +98,14 @@ static double gap_of(const struct interior *in)
     return sum / (double)in->of->count;
 }
 
+/* Is W round-off in the system? */
+static bool is_stiff(const struct interior *in)
+{
+    double most = 0;
+    for (size_t i = 0; i < in->of->count; i++) most = fmax(most, in->l[i] / in->s[i]);
+    return round_off(1000, most) > 1;
+}
+
 static void approach(const struct disc_problem *of)
 {
     enum { most_steps = 100 };
@@ -117,7 +125,7 @@ static void approach(const struct disc_problem *of)
         in.l[i] = 1;
         in.s[i] = 0.5;
     }
-    for (int step = 0; in.size > 0 && step < most_steps && gap_of(&in) > least; step++) {
+    for (int step = 0; in.size > 0 && step < most_steps && gap_of(&in) > least && !is_stiff(&in); step++) {
         in.mu = decrease * gap_of(&in);
         if (!newton(&in)) break;
     }
