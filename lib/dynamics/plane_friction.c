@@ -63,7 +63,7 @@ void plane_follow(const struct view *view, const struct coupling *coupling, stru
     const double turned = 0.5;               /* by 60 degrees */
     const struct slip_of_point now = slip_now(coupling, view->work->links);
     const double speed = vec_norm(now.u);
-    if (speed <= fmax(rounding * now.size, soft_speeds * state->nu)) return;
+    if (speed <= fmax(rounding * now.size, state->slow)) return;
     state->gently = false;
     if (vec_dot(state->e, now.u) < turned * speed) state->e = vec_scale(1 / speed, now.u);
 }
@@ -111,8 +111,11 @@ void plane_begin(const struct fbd_model *model, const struct instant *at, int in
     const struct coupling *coupling = &model->tree->couplings[index];
     struct coupling_state *state = &at->tree->couplings[index];
     const struct slip_of_point now = slip_now(coupling, at->tree->links);
+    const double soft = limit_of(model, at, index, NULL, NULL) * coupling->soft,
+                 error = at->tree->tolerance * now.size;
     state->e = e;
-    state->nu = fmax(limit_of(model, at, index, NULL, NULL) * coupling->soft, at->tree->tolerance * now.size);
+    state->nu = fmax(soft, error);
+    state->slow = fmax(soft_speeds * soft, slow_errors * error);
     state->across = round_off(16, now.size);
     state->gently = false;
 }

@@ -48,7 +48,7 @@ static bool follow(struct fbd_state *state, const struct decided *decided, int p
     const bool same = state->slip[pair] == slip_plus;
     const struct instant at = state_instant(state);
     const bool slow =
-        plane_speed(state->model, state->tree, index).slip <= soft_speeds * state->tree->couplings[index].nu;
+        plane_speed(state->model, state->tree, index).slip <= state->tree->couplings[index].slow;
     if (decided && same && slow) return true;
     state->slip[pair] = slip_plus;
     plane_aim(state->model, &at, index);
@@ -238,8 +238,7 @@ static bool sets_out(const struct fbd_state *state, int index)
     const struct coupling *coupling = &state->model->tree->couplings[index];
     return coupling->kind == constraint_plane && state->slip[coupling->pair] != stick &&
            !coupling_is_gone(state->tree, coupling) &&
-           plane_speed(state->model, state->tree, index).slip <=
-               soft_speeds * state->tree->couplings[index].nu;
+           plane_speed(state->model, state->tree, index).slip <= state->tree->couplings[index].slow;
 }
 
 bool planes_set_out(struct fbd_state *state)

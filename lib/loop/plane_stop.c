@@ -11,10 +11,8 @@
 /* Is the velocity on a plane within the error of the velocities of which it is the difference? The links are in place. */
 static bool is_slow(const struct run *run, int pair)
 {
-    const double tolerances = 100;
-    const struct plane_speed speed =
-        plane_speed(run->model, run->state->tree, run->model->plan.modes[pair].coupling);
-    return speed.slip <= tolerances * run->options.tolerance * fmax(speed.size, run->watchers.fast[pair]);
+    const int index = run->model->plan.modes[pair].coupling;
+    return plane_speed(run->model, run->state->tree, index).slip <= run->state->tree->couplings[index].slow;
 }
 
 /* Has the velocity on a plane turned by a right angle from the direction in which it is watched? That is renewed
