@@ -65,6 +65,7 @@ void plane_follow(const struct view *view, const struct coupling *coupling, stru
     const double speed = vec_norm(now.u);
     if (speed <= fmax(rounding * now.size, state->slow)) return;
     state->gently = false;
+    state->nu = state->soft;
     if (vec_dot(state->e, now.u) < turned * speed) state->e = vec_scale(1 / speed, now.u);
 }
 
@@ -114,7 +115,7 @@ void plane_begin(const struct fbd_model *model, const struct instant *at, int in
     const double soft = limit_of(model, at, index, NULL, NULL) * coupling->soft,
                  error = at->tree->tolerance * now.size;
     state->e = e;
-    state->nu = fmax(soft, error);
+    state->nu = state->soft = soft;
     state->slow = fmax(soft_speeds * soft, slow_errors * error);
     state->across = round_off(16, now.size);
     state->gently = false;

@@ -152,7 +152,10 @@ void plane_set_out(struct fbd_state *state, int pair, struct vec along, bool gen
     const struct vec e = state->tree->couplings[index].e;
     if (vec_norm(along) > 0)
         plane_begin(state->model, &at, index, vec_turn(e, vec_scale(1 / vec_norm(along), along)));
-    state->tree->couplings[index].gently = gently;
+    struct coupling_state *starts = &state->tree->couplings[index];
+    starts->nu =
+        fmax(starts->soft, state->tree->tolerance * plane_speed(state->model, state->tree, index).size);
+    starts->gently = gently;
 }
 
 /* The acceleration of point i by its own force. */
