@@ -6,7 +6,7 @@
  *     W g + b + l_i g_i = 0,    s_i + (|g_i|^2 - 1)/2 = 0,    l_i s_i = mu,    l_i, s_i > 0
  *
  * are solved by Newton's method while mu decreases to zero. Its matrices are positive definite, whatever W. Then relaxation, disc
- * by disc, removes what remains of mu: each disc is a problem of two unknowns, W_ii + s 1 with s >= 0 such that |f_i| = c_i. Alone
+ * by disc, removes the remainder of mu: each disc is a problem of two unknowns, W_ii + s 1 with s >= 0 such that |f_i| = c_i. Alone
  * it converges slowly where points share forces near the limit that they bear together.
  */
 #include "numeric/disc_forces.h"
