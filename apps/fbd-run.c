@@ -343,7 +343,7 @@ static enum exit_code run(const fbd_model *model, const struct options *options,
     struct interrupt interrupt;
     interrupt_hold(&interrupt);
     code = exit_failed;
-    if (outputs_open(&outputs, options))
+    if (outputs_open(&outputs, options, model))
         code = carry_and_write(simulation, options, &outputs, &interrupt, errors);
     fbd_simulation_free(simulation);
     fflush(stdout);

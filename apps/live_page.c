@@ -10,11 +10,12 @@
 #include "place.h"
 #include "whole_file.h"
 
-/* The two places in which a live page differs: the first occurrence of the policy, and the end of the page. */
+/* The two places in which a live page differs: the first occurrence of the policy, and a script at the end. */
 static const char policy[] = "script-src 'unsafe-inline'",
                   loose[] = "script-src 'unsafe-inline' 'self' file:";
 static const char page_end[] = "</body>\n</html>\n";
-static const char call_start[] = "<script>fbd.live(\"", call_end[] = "\")</script>\n";
+static const char script_start[] = "<script id=\"watch\">\n", call_start[] = "fbd.live(\"",
+                  call_end[] = "\");\n", script_end[] = "</script>\n";
 
 /* The last occurrence of `part`; the data before it may contain the same text. */
 static char *last_place(char *text, const char *part)
@@ -28,12 +29,14 @@ char *live_page_make(char *page, const char *stamp)
 {
     char *rule = page ? strstr(page, policy) : NULL, *end = page ? last_place(page, page_end) : NULL;
     if (!rule || !end || end < rule) return page;
-    size_t size = strlen(page) + strlen(stamp) + sizeof loose + sizeof call_start + sizeof call_end;
+    size_t size = strlen(page) + strlen(stamp) + watched_page_length + sizeof loose + sizeof script_start +
+                  sizeof call_start + sizeof call_end + sizeof script_end;
     char *live = malloc(size);
     char *rest = rule + strlen(policy);
     if (live)
-        snprintf(live, size, "%.*s%s%.*s%s%s%s%s", (int)(rule - page), page, loose, (int)(end - rest), rest,
-                 call_start, stamp, call_end, end);
+        snprintf(live, size, "%.*s%s%.*s%s%.*s%s%s%s%s%s", (int)(rule - page), page, loose, (int)(end - rest),
+                 rest, script_start, (int)watched_page_length, (const char *)watched_page, call_start, stamp,
+                 call_end, script_end, end);
     fbd_free(page);
     return live;
 }
@@ -76,10 +79,10 @@ void live_page_settle(const char *path)
 {
     char name[place_size];
     char *page = read_page(path);
-    char *call = page ? last_place(page, call_start) : NULL, *rule = page ? strstr(page, loose) : NULL;
-    char *end = call ? strstr(call, call_end) : NULL;
-    if (end && rule && rule < call) {
-        cut(call, end + strlen(call_end));
+    char *script = page ? last_place(page, script_start) : NULL, *rule = page ? strstr(page, loose) : NULL;
+    char *end = script ? strstr(script, script_end) : NULL;
+    if (end && rule && rule < script) {
+        cut(script, end + strlen(script_end));
         cut(rule + strlen(policy), rule + strlen(loose));
         (void)whole_file_put(path, page); /* on failure the live page stays, without effect */
     }

@@ -28,6 +28,7 @@ enum {
     option_csv,
     option_every,
     option_ledger,
+    option_origin,
     option_json,
     option_error_bars,
     option_quiet,
@@ -92,6 +93,7 @@ static const struct option long_options[] = {
     {"csv", required_argument, NULL, option_csv},
     {"every", required_argument, NULL, option_every},
     {"ledger", no_argument, NULL, option_ledger},
+    {"origin", no_argument, NULL, option_origin},
     {"json", required_argument, NULL, option_json},
     {"error-bars", no_argument, NULL, option_error_bars},
     {"quiet", no_argument, NULL, option_quiet},
@@ -252,6 +254,7 @@ static bool take_option(const struct command_line *unused, int option, void *con
     case option_csv: options->csv = optarg; return true;
     case option_json: options->json = optarg; return true;
     case option_ledger: options->ledger = true; return true;
+    case option_origin: options->origin = true; return true;
     case option_error_bars: options->run.error_bars = true; return true;
     case option_quiet: options->quiet = true; return true;
     case option_full: options->full = true; return true;
@@ -336,9 +339,9 @@ static bool runs_or_draws(const struct options *options)
            options->run.accuracy > 0 || options->run.step > 0 || options->run.no_structure ||
            isfinite(options->run.until) || options->run.error_bars || options->settle ||
            options->fmu_version || options->svg || options->html || options->note || options->plot ||
-           options->plot_of || options->gnuplot || options->ledger || options->every > 0 || options->latex ||
-           shapes_drawing(options, false, false) || options->without_count || options->full ||
-           options->degrees;
+           options->plot_of || options->gnuplot || options->ledger || options->origin || options->every > 0 ||
+           options->latex || shapes_drawing(options, false, false) || options->without_count ||
+           options->full || options->degrees;
 }
 
 /* Watched outputs and inputs must be files. */
@@ -389,12 +392,13 @@ static bool outputs_agree(const struct options *options)
 {
     const bool stands_still = options->action != action_run;
     const bool responds = options->action == action_linearize; /* frequency responses */
-    if ((stands_still && (options->html || options->note || options->ledger || options->every > 0)) ||
+    if ((stands_still &&
+         (options->html || options->note || options->ledger || options->origin || options->every > 0)) ||
         (stands_still && !responds && (options->csv || options->plot || options->gnuplot)))
-        return usage(
-            "--csv, --html, --note, --plot, --gnuplot, --ledger and --every belong to a run; --csv, --plot "
-            "and --gnuplot also go with --linearize",
-            "");
+        return usage("--csv, --html, --note, --plot, --gnuplot, --ledger, --origin and --every belong to a "
+                     "run; --csv, --plot "
+                     "and --gnuplot also go with --linearize",
+                     "");
     if ((options->inputs || options->outputs) && !responds)
         return usage("--inputs and --outputs go with --linearize", "");
     if (responds && options->plot_of)
@@ -405,6 +409,7 @@ static bool outputs_agree(const struct options *options)
         return usage("--plot-of goes with --plot or --gnuplot", "");
     if (options->plot && !plot_can_be_written(&line, options->plot)) return false;
     if (!options->csv && options->ledger) return usage("--ledger goes with --csv", "");
+    if (!options->csv && options->origin) return usage("--origin goes with --csv", "");
     if (!options->csv && !options->html && !options->note && options->every > 0)
         return usage("--every goes with --csv, --html or --note", "");
     return true;

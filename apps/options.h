@@ -34,7 +34,7 @@ struct options {
     size_t at_count;
     fbd_options run;
     double every;
-    bool ledger, quiet, settle, latex, full, degrees;
+    bool ledger, origin, quiet, settle, latex, full, degrees;
     const char *csv, *json, *svg, *html, *note;
     const char *plot, *gnuplot, *plot_of;
     const char *emit_c; /* destination of the program, of action_emit_c */

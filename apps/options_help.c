@@ -22,6 +22,7 @@ const char options_help[] =
     "  --csv FILE           the motion, one row for each output time and event\n"
     "  --every TIME         output interval of the rows, in seconds (default: 1/500 of the run)\n"
     "  --ledger             add columns for every force, its work, and the energies\n"
+    "  --origin             comment lines (#) before them: version, SHA-256 of the model, parameters\n"
     "  --json FILE          final state, events, forces, energy and cost as one object; with --equations,\n"
     "                       --linearize or --static their results; with --check the errors\n"
     "  --error-bars         estimate the error of every number written, by a second run\n"

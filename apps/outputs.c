@@ -6,8 +6,10 @@
 
 #include "complain.h"
 #include "fbd_export.h"
+#include "fbd_view.h"
 #include "gnuplot.h"
 #include "live_page.h"
+#include "place.h"
 #include "run_progress.h"
 
 /* Close the note and its drawings. */
@@ -40,7 +42,38 @@ static bool open_file(struct whole_file *file, const char *path)
     return false;
 }
 
-bool outputs_open(struct outputs *outputs, const struct options *options)
+/* A file with the hash of its text. */
+static void put_hashed(FILE *stream, const char *name, const char *file, const char *digits)
+{
+    char shown[place_size];
+    fbd_escape(file ? file : "-", shown, sizeof shown);
+    fprintf(stream, "# %s: %s, SHA-256 %s\n", name, shown, digits);
+}
+
+/* Write the comment lines of --origin. False, with a message, when memory is out. */
+static bool write_origin(FILE *stream, const fbd_model *model)
+{
+    char *digits = fbd_model_hash(model);
+    if (!digits) {
+        complain("fbd-run: out of memory");
+        return false;
+    }
+    fprintf(stream, "# fbd %s\n", fbd_version());
+    put_hashed(stream, "model", fbd_model_file(model), digits);
+    fbd_free(digits);
+    for (size_t i = 0; i < fbd_model_data_file_count(model); i++)
+        put_hashed(stream, "data", fbd_model_data_file(model, i).path, fbd_model_data_hash(model, i));
+    fprintf(stream, "# parameters:");
+    for (size_t i = 0; i < fbd_model_parameter_count(model); i++) {
+        const fbd_parameter parameter = fbd_model_parameter(model, i);
+        fprintf(stream, "%s %s = %.17g%s%s", i > 0 ? "," : "", parameter.name, parameter.value,
+                parameter.unit[0] ? " " : "", parameter.unit);
+    }
+    fprintf(stream, "\n");
+    return true;
+}
+
+bool outputs_open(struct outputs *outputs, const struct options *options, const fbd_model *model)
 {
     const char *const paths[output_count] = {
         [output_csv] = options->csv,   [output_json] = options->json,       [output_html] = options->html,
@@ -48,6 +81,7 @@ bool outputs_open(struct outputs *outputs, const struct options *options)
     };
     bool open = open_file(&outputs->note.document, options->note);
     for (int i = 0; i < output_count && open; i++) open = open_file(&outputs->files[i], paths[i]);
+    if (open && options->origin) open = write_origin(outputs->files[output_csv].stream, model);
     if (!open) outputs_close(outputs, false);
     return open;
 }

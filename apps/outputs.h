@@ -18,8 +18,9 @@ struct outputs {
     bool note_made; /* else there is none, as of a run that failed */
 };
 
-/* Open all requested files; false, with a message and no file left, when one cannot be written. */
-bool outputs_open(struct outputs *outputs, const struct options *options);
+/* Open all requested files, the CSV with the comment lines of --origin; false, with a message and no file left, when one
+ * cannot be written. */
+bool outputs_open(struct outputs *outputs, const struct options *options, const fbd_model *model);
 
 /* Write the outputs made from the result (the CSV was written during the run). False with a message. */
 bool outputs_write(struct outputs *outputs, const struct options *options, fbd_result *result,

@@ -26,7 +26,7 @@ typedef struct fbd_linear_plan {
     size_t output_count;
 } fbd_linear_plan;
 
-/* Make the system; B, C and D are exact. Each input costs a compilation of the model. NULL with a note in `errors`:
+/* Make the system; B, C and D are exact. The inputs cost one compilation of the model. NULL with a note in `errors`:
  * `no-inputs` for a file without any, `unknown-input`, `unknown-output`, `no-derivatives` (a file with `hysteresis`, or an
  * input that is the length of a rope), `not-finite`, or memory is out. The linearisation and its model must outlive it. */
 FBD_API fbd_linear_system *fbd_linear_system_new(const fbd_linearization *linearization,

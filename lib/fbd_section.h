@@ -70,7 +70,8 @@ typedef struct fbd_cut {
     double x, N, V, M;
 } fbd_cut;
 
-/* N, V and M at x; where they jump, before x or `behind` it. NAN outside of the body. */
+/* N, V and M at x; where they jump, before x or `behind` it. A place that differs from an end by round-off is that end; NAN
+ * outside of the body. */
 FBD_API fbd_cut fbd_section_at(const fbd_section *section, double x, bool behind);
 
 /* A load at one place of the axis, with the jumps of N, V and M, in ascending order of x; name NULL past the last. */

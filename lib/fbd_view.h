@@ -51,7 +51,8 @@ FBD_API size_t fbd_state_variables(fbd_state *state, double *values, size_t room
 
 /* Partial derivatives of the accelerations at a state, in its modes, by `count` variables that are coordinates,
  * rates or inputs: `derivatives`, of fbd_model_coordinate_count x count numbers, row by row, in the units of
- * the acceleration divided by that of the variable. An input costs a compilation of the model. With no variables
+ * the acceleration divided by that of the variable. An input that is a constant of
+ * the model costs a compilation of it; one that states hold (fbd_model_with_callbacks) costs none. With no variables
  * it only finds out whether the scene has derivatives. Returns false with a note in `errors`: `no-derivatives`
  * for a scene with user states, a prescribed motion or `hysteresis`, or memory is out. */
 FBD_API bool fbd_state_derivatives(fbd_state *state, const size_t *variables, size_t count,

@@ -35,30 +35,46 @@ static bool are_arguments(const fbd_model *model, const size_t *variables, size_
     return true;
 }
 
-static bool take_input(const fbd_state *state, size_t input, double *dfdy, double *dfdu)
-{
-    struct fbd_model *by = model_by_input(state, input);
-    bool fine = by && input_slopes(state, by, input, dfdy, dfdu);
-    model_free(by);
-    return fine;
-}
-
-/* `work` has room for two Jacobians and two derivatives by time. */
+/* `work` has room for a Jacobian and a derivative by time. */
 static bool fill(const fbd_state *state, const size_t *variables, size_t count, double *work,
                  double *derivatives)
 {
     size_t n = state->model->scene->coordinate_count, size = 2 * n;
-    double *dfdy = work, *other = dfdy + size * size, *dfdu = other + size * size;
+    double *dfdy = work, *dfdu = dfdy + size * size;
     if (!state_slopes(state, dfdy, dfdu)) return false;
     for (size_t k = 0; k < count; k++) {
         const fbd_variable variable = fbd_model_variable(state->model, variables[k]);
         bool by_input = variable.kind == FBD_VARIABLE_INPUT;
         size_t column = variable.kind == FBD_VARIABLE_RATE ? n + variable.index : variable.index;
-        if (by_input && !take_input(state, variable.index, other, dfdu)) return false;
+        if (by_input && !input_slopes(state, variable.index, dfdu)) return false;
         for (size_t i = 0; i < n; i++)
             derivatives[i * count + k] = by_input ? dfdu[n + i] : dfdy[(n + i) * size + column];
     }
     return true;
+}
+
+/* Is one of the variables an input that is a constant of the model? */
+static bool needs_held_inputs(const fbd_model *model, const size_t *variables, size_t count)
+{
+    for (size_t k = 0; k < count; k++) {
+        const fbd_variable variable = fbd_model_variable(model, variables[k]);
+        if (variable.kind == FBD_VARIABLE_INPUT && !model->scene->parameters[variable.index].call.held)
+            return true;
+    }
+    return false;
+}
+
+static bool fill_by_inputs(const fbd_state *state, const size_t *variables, size_t count, double *work,
+                           double *derivatives)
+{
+    if (!needs_held_inputs(state->model, variables, count))
+        return fill(state, variables, count, work, derivatives);
+    struct fbd_model *with = model_with_held_inputs(state->model);
+    fbd_state *there = with ? state_with_held_inputs(state, with) : NULL;
+    const bool filled = there && fill(there, variables, count, work, derivatives);
+    state_free(there);
+    model_free(with);
+    return filled;
 }
 
 static bool derive(const fbd_state *state, const size_t *variables, size_t count, double *derivatives,
@@ -77,8 +93,8 @@ static bool derive(const fbd_state *state, const size_t *variables, size_t count
         return false;
     }
     if (count == 0) return true;
-    double *work = calloc(2 * size * size + size + 1, sizeof *work);
-    bool fine = work && fill(state, variables, count, work, derivatives);
+    double *work = calloc(size * size + size + 1, sizeof *work);
+    bool fine = work && fill_by_inputs(state, variables, count, work, derivatives);
     free(work);
     if (!fine) diag_out_of_memory(errors);
     return fine;

@@ -32,7 +32,7 @@ bool state_slopes(const fbd_state *state, double *dfdy, double *dfdt)
     return true;
 }
 
-/* ---- by an input */
+/* ---- by inputs */
 
 struct override *model_overrides(const struct fbd_model *model, struct arena *arena, size_t *count)
 {
@@ -57,41 +57,62 @@ struct override *model_overrides(const struct fbd_model *model, struct arena *ar
     return list;
 }
 
-struct fbd_model *model_by_input(const fbd_state *state, size_t input)
+struct fbd_model *model_with_held_inputs(const struct fbd_model *model)
 {
     struct arena arena = {0};
     size_t count;
-    const struct fbd_model *model = state->model;
     fbd_errors *errors = fbd_errors_new();
     struct override *overrides = errors ? model_overrides(model, &arena, &count) : NULL;
     struct scene *scene = NULL;
     if (overrides) {
-        struct override *time = &overrides[count - model->scene->parameter_count + input];
-        time->as_time = true;
-        time->now = state->t;
+        struct override *parameters = overrides + count - model->scene->parameter_count;
+        for (size_t i = 0; i < model->scene->parameter_count; i++)
+            parameters[i].call.held = model->scene->parameters[i].input && !parameters[i].call.function;
         scene = scene_read(model->source, model->source_length, model->scene->file, overrides, count, NULL,
                            errors);
     }
-    struct fbd_model *by = scene ? model_compile(scene, errors) : NULL;
+    struct fbd_model *with = scene ? model_compile(scene, errors) : NULL;
     arena_free(&arena);
     fbd_errors_free(errors);
-    return by;
+    return with;
 }
 
-bool input_slopes(const fbd_state *state, const struct fbd_model *by, size_t input, double *dfdy,
-                  double *dfdu)
+struct fbd_state *state_with_held_inputs(const fbd_state *state, const struct fbd_model *with)
 {
-    size_t count = fbd_state_pack(state, NULL, 0);
-    double *numbers = calloc(count + 1, sizeof *numbers);
-    fbd_state *there = numbers ? state_new(by) : NULL;
-    bool fine = false;
-    if (there) {
-        fbd_state_pack(state, numbers, count);
-        const struct parameter *parameter = &state->model->scene->parameters[input];
-        numbers[0] = parameter->call.held ? state->held[input] : parameter->value;
-        fine = fbd_state_unpack(there, numbers, count) && state_slopes(there, dfdy, dfdu);
+    const struct scene *scene = state->model->scene;
+    const size_t packed = fbd_state_pack(state, NULL, 0);
+    size_t count = packed;
+    double *numbers = calloc(packed + scene->parameter_count + 1, sizeof *numbers);
+    struct fbd_state *there = numbers ? state_new(with) : NULL;
+    if (!there) {
+        free(numbers);
+        return NULL;
     }
-    state_free(there);
+    fbd_state_pack(state, numbers, packed);
+    for (size_t i = 0; i < scene->parameter_count; i++) count -= scene->parameters[i].call.held;
+    for (size_t i = 0; i < scene->parameter_count; i++)
+        if (with->scene->parameters[i].call.held)
+            numbers[count++] = scene->parameters[i].call.held ? state->held[i] : scene->parameters[i].value;
+    const bool fits = fbd_state_unpack(there, numbers, count);
     free(numbers);
-    return fine;
+    if (fits) return there;
+    state_free(there);
+    return NULL;
+}
+
+bool input_slopes(const fbd_state *state, size_t input, double *dfdu)
+{
+    fbd_state *copy = state_new(state->model);
+    double *held = calloc(state->model->scene->parameter_count + 1, sizeof *held);
+    const bool made = copy && held;
+    if (made) {
+        held[input] = 1;
+        state_copy(copy, state);
+        state_ready(copy);
+        const struct instant at = state_instant(copy);
+        if (state->model->plan.n > 0) state_held_slopes(state->model, &at, copy->scratch, held, dfdu);
+    }
+    free(held);
+    state_free(copy);
+    return made;
 }

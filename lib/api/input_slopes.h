@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Derivatives of the equations of motion by an input of the file.
+ * Derivatives of the equations of motion by the state and by inputs of the file.
  *
- * An input is a constant of the compiled model. For the derivative by it a model is compiled in which the input
- * replaces the time and the time is a constant: the derivative by time of its dual numbers is then that by the input.
+ * An input that the state holds is a direction of its own (struct direction). One that is a constant of the model is held
+ * by the states of another model of the same file.
  */
 #ifndef FBD_API_INPUT_SLOPES_H
 #define FBD_API_INPUT_SLOPES_H
 
 #include "dynamics/state.h"
 
-/* True if an expression has a memory (`hysteresis`), which a model with constant time may lack. */
+/* True if an expression has a memory (`hysteresis`). */
 bool plan_remembers(const struct plan *plan);
 
 /* The Jacobian of a copy of the state: dfdy[size x size] and dfdt[size], size = plan_size. False when memory is out. */
@@ -20,12 +20,15 @@ bool state_slopes(const fbd_state *state, double *dfdy, double *dfdt);
  * scene. NULL when memory is out. */
 struct override *model_overrides(const struct fbd_model *model, struct arena *arena, size_t *count);
 
-/* The model in which input `input` (of the parameters of the scene) replaces the time; NULL when memory is out. */
-struct fbd_model *model_by_input(const fbd_state *state, size_t input);
+/* The model whose states hold all inputs but those of callbacks; NULL when memory is out. */
+struct fbd_model *model_with_held_inputs(const struct fbd_model *model);
 
-/* The derivatives of the rates, accelerations and rates of user states by that input, dfdu[size]; `by` is
- * model_by_input, dfdy scratch. False when the numbers of the state do not fit, or memory is out. */
-bool input_slopes(const fbd_state *state, const struct fbd_model *by, size_t input, double *dfdy,
-                  double *dfdu);
+/* The same instant as `state` in a model by model_with_held_inputs. NULL when the numbers of the state do not fit, or memory
+ * is out. */
+struct fbd_state *state_with_held_inputs(const fbd_state *state, const struct fbd_model *with);
+
+/* The derivatives of the rates, accelerations and rates of user states by an input that the state holds (its index among the
+ * parameters of the scene), dfdu[plan_size]. False when memory is out. */
+bool input_slopes(const fbd_state *state, size_t input, double *dfdu);
 
 #endif

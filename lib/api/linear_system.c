@@ -14,7 +14,6 @@
 #include "base/diag.h"
 #include "fbd_view.h"
 #include "output/world.h"
-#include "rest/equilibrium.h"
 
 /* The quantity that an output measures. */
 struct output {
@@ -146,13 +145,10 @@ static bool choose_signals(struct building *building, const fbd_linear_plan *pla
 
 /* ---- B */
 
-static bool refuse_input(const struct building *building, const char *name)
+static bool refuse_inputs(const struct building *building)
 {
     diag_add(building->errors, FBD_ERROR, "no-derivatives", (struct pos){0, 0}, NULL,
-             "the linear motion by the input `%s` is not determined: the file has `hysteresis`, or the input "
-             "changes a "
-             "coupling",
-             name);
+             "the linear motion by the inputs is not determined: the file has `hysteresis`");
     return false;
 }
 
@@ -174,32 +170,37 @@ static void take_column(struct fbd_linear_system *system, size_t column, const d
     for (size_t i = 0; i < own; i++) system->B[(2 * f + i) * m + column] = dfdu[2 * n + i];
 }
 
-static bool make_column(const struct building *building, size_t column, double *work)
+static bool make_columns(const struct building *building, const fbd_state *state)
 {
-    const struct fbd_linearization *linear = building->system->linear;
-    const size_t wide = plan_size(&building->model->plan), input = building->inputs[column];
-    if (linear->model->scene->parameters[input].call.function)
-        return refuse_called(building, building->system->inputs[column].name);
-    struct fbd_model *by = model_by_input(linear->state, input);
-    if (!by) return false;
-    bool meant = !equilibrium_refuse_reels(by, NULL);
-    bool fine = meant && input_slopes(linear->state, by, input, work, work + wide * wide);
-    model_free(by);
-    if (!meant) return refuse_input(building, building->system->inputs[column].name);
-    if (fine) take_column(building->system, column, work + wide * wide);
+    double *dfdu = calloc(plan_size(&building->model->plan) + 1, sizeof *dfdu);
+    bool fine = dfdu != NULL;
+    for (size_t k = 0; fine && k < building->system->input_count; k++) {
+        fine = input_slopes(state, building->inputs[k], dfdu);
+        if (fine) take_column(building->system, k, dfdu);
+    }
+    free(dfdu);
     return fine;
+}
+
+static bool refuse_callbacks(const struct building *building)
+{
+    for (size_t k = 0; k < building->system->input_count; k++)
+        if (building->model->scene->parameters[building->inputs[k]].call.function)
+            return !refuse_called(building, building->system->inputs[k].name);
+    return false;
 }
 
 static bool make_B(const struct building *building)
 {
-    const size_t wide = plan_size(&building->model->plan);
-    double *work = calloc(wide * wide + wide + 1, sizeof *work);
-    bool fine = work != NULL;
-    if (plan_remembers(&building->model->plan))
-        fine = refuse_input(building, building->system->inputs[0].name);
-    for (size_t k = 0; fine && k < building->system->input_count; k++) fine = make_column(building, k, work);
-    free(work);
-    return fine;
+    if (plan_remembers(&building->model->plan)) return refuse_inputs(building);
+    if (refuse_callbacks(building)) return false;
+    struct fbd_model *with = model_with_held_inputs(building->model);
+    if (!with) return false;
+    fbd_state *state = state_with_held_inputs(building->system->linear->state, with);
+    const bool made = state && make_columns(building, state);
+    state_free(state);
+    model_free(with);
+    return made;
 }
 
 /* ---- C and D */

@@ -72,12 +72,6 @@ static void write_numbers(struct text *text, const struct pack *pack)
 
 /* ---- events */
 
-/* True for events of the same kind, body and source: their label is written once, for the first of them. */
-static bool alike(const struct run_event *a, const struct run_event *b)
-{
-    return a->kind == b->kind && a->body == b->body && a->load == b->load && a->watch == b->watch;
-}
-
 /* The page lists so many events at most, and gives the total number; the JSON of the run has all. */
 static size_t listed_events(const struct ensemble *run)
 {
@@ -96,7 +90,7 @@ static void write_labels(struct text *text, const struct ensemble *run, size_t c
     for (size_t i = 0; i < count; i++) {
         const struct run_event *event = &run->events[i];
         size_t k = 0;
-        while (k < label_count && !alike(labels[k], event)) k++;
+        while (k < label_count && !events_are_alike(labels[k], event)) k++;
         if (k == label_count && label_count < most_labels) {
             json_comma(text, label_count);
             labels[label_count++] = event;

@@ -134,14 +134,17 @@ static void write_coupling(struct text *text, const struct record *record, const
     text_printf(text, "\"side\":%d,\"force\":%d}", state->side[0], force_column(record, coupling));
 }
 
-/* The surface of a contact on the ground: {point, e, n} of a line, {corners} of a polygon. */
+/* The surface of a contact: {point, e, n} of a line of the ground, {corners} of a polygon, {body} of a body whose surface
+ * runs. */
 static void write_surface(struct text *text, const struct constraint *source, int side)
 {
     const struct polygon *polygon = source->contact.polygon;
     struct vec e = vec_unit(source->along);
     text_add(text, "{");
     page_speed_write(text, &source->surface_speed);
-    if (!polygon) {
+    if (!source->contact.line && !polygon) {
+        text_printf(text, "\"body\":%d", source->body[1]);
+    } else if (!polygon) {
         json_vector_member(text, "point", source->point[1].where);
         json_vector_member(text, "e", e);
         text_add(text, "\"n\":");
@@ -165,7 +168,7 @@ static void write_surfaces(struct text *text, const fbd_result *result, const st
     for (int i = 0; i < tree->meeting_count; i++) {
         const struct meeting *meeting = &tree->meetings[i];
         const struct constraint *source = &record->model->scene->constraints[meeting->constraint];
-        if (!source->contact.line && !source->contact.polygon) continue;
+        if (!source->contact.line && !source->contact.polygon && !source->surface_speed.expr) continue;
         json_comma(text, written++);
         write_surface(text, source, result->start->tree->couplings[meeting->first_coupling].side[0]);
     }

@@ -63,7 +63,7 @@ static const double first_slice = 1e-9, usual_slice = 1e-3;
 
 static void adapt_slice(struct going *going, unsigned long made)
 {
-    const unsigned long islands = going->result->simulation->ensemble->count, most = 1000 * islands;
+    const size_t islands = going->result->simulation->ensemble->count, most = 1000 * islands;
     if (made > most)
         going->slice *= (double)most / (double)made;
     else if (made < islands || going->slice < usual_slice)

@@ -55,6 +55,12 @@ static inline struct vec vec_perp(struct vec a)
     return (struct vec){-a.y, a.x};
 }
 
+/* omega k x a: the rate of change of a vector that turns at omega. */
+static inline struct vec vec_turning(double omega, struct vec a)
+{
+    return vec_scale(omega, vec_perp(a));
+}
+
 /* sqrt(x^2 + y^2), by hypot only where the squares would overflow or lose digits; the zero vector needs
  * neither. */
 static inline double vec_norm(struct vec a)

@@ -110,7 +110,7 @@ static const struct coupling *coupling_of_event(const struct fbd_state *state, c
 {
     const struct tree *tree = state->model->tree;
     const struct coupling *found = NULL;
-    for (int i = 0; tree && event->load >= 0 && i < tree->coupling_count; i++) {
+    for (int i = 0; event->load >= 0 && i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
         if (coupling->load != event->load || coupling->end[0].body != event->body) continue;
         const bool open = coupling->surface >= 0 && state->slip[coupling->surface] != stick;

@@ -66,12 +66,14 @@ static void draw_running(struct figure *figure, size_t index)
                            other = fbd_view_coupling_end(figure->view, index, 1);
     if (index > 0 && fbd_view_coupling(figure->view, index - 1).entry == coupling.entry) return;
     const char *text = speed_text(figure, letters_entry(&figure->letters, "", coupling.name));
-    if (!text || (coupling.lined && other.body >= 0)) return;
+    if (!text) return;
     if (!coupling.lined) {
         draw_circulation(figure, text, coupling.entry, other.body);
         return;
     }
-    const struct vec e = panel_direction(vec_unit(coupling.angle)),
+    const fbd_pose *pose = other.body < 0 ? NULL : &figure->panels[other.body].pose;
+    const struct vec x = pose ? (struct vec){pose->cosine, pose->sine} : (struct vec){1, 0},
+                     e = panel_direction(vec_turn(x, vec_unit(coupling.angle))),
                      n = vec_scale(-coupling.side, vec_perp(e)),
                      at = figure_point(figure, end.body, end.point),
                      line = figure_point(figure, other.body, other.point);

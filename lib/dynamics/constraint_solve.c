@@ -14,7 +14,7 @@
  * friction.
  *
  * Where rows are linearly dependent, always or at some positions (all bars of a parallelogram in one line), S
- * is singular. So S + epsilon D is factored, and the solution is corrected by the residual of the true
+ * is singular. So S + epsilon D is factored (epsilon: shift_of_rows), and the solution is corrected by the residual of the true
  * system: after n corrections a direction of S with the relative size s has the relative error (epsilon /
  * (epsilon + s))^(n + 1), which is rounding after two for s > 1e-3, and after eight for s > 1e-6, as for a
  * light coupler between heavy bodies; multipliers of a redundant row are those of the least norm; and near a
@@ -47,9 +47,8 @@
  * multiplier, which would be rounding. */
 static const double nothing = 1e-15;
 
-/* Epsilon of the header, and the relative pivot below which a row is weak: the shifts of earlier rows add to
- * it. */
-static const double shift_of_rows = 1e-8, weak_share = 1e-4;
+/* The relative pivot below which a row is weak: the shifts of earlier rows add to it. */
+static const double weak_share = 1e-4;
 
 /* The same for scenes with points on planes: two points of a body at a distance d have a direction of relative size d^2, and d
  * may be 1e-4 of the body. */

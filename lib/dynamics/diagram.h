@@ -77,7 +77,8 @@ struct vec body_direction(const struct model_body *body, const struct instant *a
 /* Is it a reaction of the joint of body b, its `normal` included? Its generalized forces are zero. */
 bool arrow_is_of_joint(const struct fbd_model *model, int b, const struct arrow *arrow);
 
-/* The acceleration of the body's centre of mass. */
+/* The body's centre of mass in the world, and its acceleration. */
+struct vec mass_center(const struct model_body *body, const struct instant *at);
 struct vec mass_center_acceleration(const struct model_body *body, const struct instant *at);
 
 /* The acceleration of a point of its frame, in the world; and of its angle. */

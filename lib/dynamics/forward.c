@@ -154,7 +154,7 @@ void state_jacobian(const struct fbd_model *model, const struct instant *given, 
     memset(dy, 0, size * sizeof *dy);
     if (!at->sliding) force_balance(model, at, slots); /* once for all directions */
     for (size_t j = 0; j < size; j++) {
-        struct direction along = {0, dy};
+        struct direction along = {.dy = dy};
         dy[j] = 1;
         vary(model, at, &along, slots, slots_along, column);
         if (plan->own > 0) user_state_rates_along(model, at, &along, column + n);
@@ -162,7 +162,7 @@ void state_jacobian(const struct fbd_model *model, const struct instant *given, 
         for (size_t i = 0; i < size - n; i++) dfdy[(n + i) * size + j] = column[i];
         if (j >= n && j < 2 * n) dfdy[(j - n) * size + j] = 1;
     }
-    struct direction in_time = {1, dy};
+    struct direction in_time = {.dt = 1, .dy = dy};
     memset(dfdt, 0, n * sizeof *dfdt);
     vary(model, at, &in_time, slots, slots_along, dfdt + n);
     if (plan->own > 0) user_state_rates_along(model, at, &in_time, dfdt + 2 * n);
@@ -172,4 +172,17 @@ void state_jacobian(const struct fbd_model *model, const struct instant *given, 
         dfdy[i * size + n + i] = 0;
         friction_surface_speed(&plan->modes[pair], at, &dfdt[i]);
     }
+}
+
+void state_held_slopes(const struct fbd_model *model, const struct instant *at, double *scratch,
+                       const double *held, double *dfdu)
+{
+    const struct plan *plan = &model->plan;
+    const struct scratch of = scratch_of(plan, scratch);
+    const size_t n = (size_t)plan->n;
+    const struct direction along = {.dy = of.dy, .held = held};
+    memset(of.dy, 0, plan_size(plan) * sizeof *of.dy);
+    memset(dfdu, 0, n * sizeof *dfdu);
+    accelerations_along(model, at, &along, of.slots, of.slots_along, dfdu + n);
+    if (plan->own > 0) user_state_rates_along(model, at, &along, dfdu + 2 * n);
 }

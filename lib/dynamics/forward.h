@@ -42,4 +42,9 @@ void state_rates(const struct fbd_model *model, const struct instant *at, double
 void state_jacobian(const struct fbd_model *model, const struct instant *given, double *scratch, double *dfdy,
                     double *dfdt);
 
+/* The derivatives of the same rates by an input that states hold: dfdu[plan_size]; `held` has 1 at its parameter, 0 elsewhere
+ * (struct direction). */
+void state_held_slopes(const struct fbd_model *model, const struct instant *at, double *scratch,
+                       const double *held, double *dfdu);
+
 #endif

@@ -64,23 +64,32 @@ double friction_surface_jerk(const struct mode *mode, const struct instant *at)
     return jerk;
 }
 
+struct friction_coefficients friction_coefficients_at(const struct fbd_model *model, int pair,
+                                                      const struct instant *at, const struct direction *along)
+{
+    const struct mode *mode = &model->plan.modes[pair];
+    struct friction_coefficients mu = {0};
+    mu.resting = friction_coefficient(model, pair, &mode->mu_s, at, along, along ? &mu.d_resting : NULL);
+    mu.slipping = friction_coefficient(model, pair, &mode->mu_k, at, along, along ? &mu.d_slipping : NULL);
+    return mu;
+}
+
 bool friction_is_idle(const struct fbd_model *model, int pair, const struct instant *at,
                       const struct direction *along)
 {
     const struct mode *mode = &model->plan.modes[pair];
-    double d_s, d_k;
-    if (!mode_is_friction(mode) || !(mode->mu_s.expr || mode->mu_k.expr)) return false;
-    if (friction_coefficient(model, pair, &mode->mu_s, at, along, &d_s) != 0 || d_s != 0) return false;
-    return friction_coefficient(model, pair, &mode->mu_k, at, along, &d_k) == 0 && d_k == 0;
+    if (!mode_is_friction(mode) || !mode_friction_varies(mode)) return false;
+    const struct friction_coefficients mu = friction_coefficients_at(model, pair, at, along);
+    return mu.resting == 0 && mu.d_resting == 0 && mu.slipping == 0 && mu.d_slipping == 0;
 }
 
 double friction_below_zero(const struct fbd_model *model, int pair, const struct instant *at)
 {
     const double rounding = negligible_sum; /* of coefficients of 1, or of a bearing's limit of 1 N m */
     const struct mode *mode = &model->plan.modes[pair];
-    if (!mode_is_friction(mode) || !(mode->mu_s.expr || mode->mu_k.expr)) return 0;
-    double least = fmin(friction_coefficient(model, pair, &mode->mu_s, at, NULL, NULL),
-                        friction_coefficient(model, pair, &mode->mu_k, at, NULL, NULL));
+    if (!mode_is_friction(mode) || !mode_friction_varies(mode)) return 0;
+    const struct friction_coefficients mu = friction_coefficients_at(model, pair, at, NULL);
+    const double least = fmin(mu.resting, mu.slipping);
     return least < -rounding ? least : 0;
 }
 
@@ -95,8 +104,9 @@ struct friction_values friction_at(const struct fbd_model *model, int pair, cons
         values.N = -slots[mode->normal_slot];
         press = fmax(0, at->pull[pair] * values.N); /* a surface cannot pull */
     }
-    values.limit_static = friction_coefficient(model, pair, &mode->mu_s, at, NULL, NULL) * press;
-    values.limit_kinetic = friction_coefficient(model, pair, &mode->mu_k, at, NULL, NULL) * press;
+    const struct friction_coefficients mu = friction_coefficients_at(model, pair, at, NULL);
+    values.limit_static = mu.resting * press;
+    values.limit_kinetic = mu.slipping * press;
     double acceleration;
     friction_surface_speed(mode, at, &acceleration);
     values.hold = mode->inertia * acceleration - slots[mode->hold_slot];
@@ -114,16 +124,15 @@ struct friction_values friction_along(const struct fbd_model *model, int pair, c
     const struct mode *mode = &model->plan.modes[pair];
     struct friction_values rate = {0};
     if (mode_is_one_sided(mode)) return rate;
-    double press = 1, d_press = 0, d_mu;
+    double press = 1, d_press = 0;
     if (mode->normal_slot >= 0) {
         rate.N = -slots_along[mode->normal_slot];
         press = fmax(0, -at->pull[pair] * slots[mode->normal_slot]);
         d_press = at->pull[pair] * rate.N;
     }
-    double mu = friction_coefficient(model, pair, &mode->mu_s, at, along, &d_mu);
-    rate.limit_static = d_mu * press + mu * d_press;
-    mu = friction_coefficient(model, pair, &mode->mu_k, at, along, &d_mu);
-    rate.limit_kinetic = d_mu * press + mu * d_press;
+    const struct friction_coefficients mu = friction_coefficients_at(model, pair, at, along);
+    rate.limit_static = mu.d_resting * press + mu.resting * d_press;
+    rate.limit_kinetic = mu.d_slipping * press + mu.slipping * d_press;
     double jerk = friction_surface_jerk(mode, at);
     rate.hold = mode->inertia * jerk * along->dt - slots_along[mode->hold_slot];
     rate.force = at->slip[pair] == stick ? rate.hold : -at->slip[pair] * rate.limit_kinetic;

@@ -34,6 +34,15 @@ double friction_surface_speed(const struct mode *mode, const struct instant *at,
 double friction_coefficient(const struct fbd_model *model, int pair, const struct formula *mu,
                             const struct instant *at, const struct direction *along, double *variation);
 
+/* Both coefficients of a friction constraint, and their variations along a direction, or NULL. */
+struct friction_coefficients {
+    double resting, slipping, d_resting, d_slipping;
+};
+
+struct friction_coefficients friction_coefficients_at(const struct fbd_model *model, int pair,
+                                                      const struct instant *at,
+                                                      const struct direction *along);
+
 /* The third derivative of a formula of t, by differences: expressions have two, and the third only enters the
  * variation of accelerations with time. */
 double formula_third(const struct formula *formula, const struct instant *at);
@@ -63,7 +72,7 @@ bool friction_takes_impulses(const struct fbd_model *model, const struct mode *m
  * slips, by convention forwards, and has no events. */
 static inline bool friction_is_never(const struct mode *mode)
 {
-    return mode_is_friction(mode) && !mode->mu_s.expr && !mode->mu_k.expr && mode->mu_s.constant == 0 &&
+    return mode_is_friction(mode) && !mode_friction_varies(mode) && mode->mu_s.constant == 0 &&
            mode->mu_k.constant == 0;
 }
 

@@ -37,10 +37,11 @@ struct instant {
     const double *held;      /* values of inputs, by parameter; NULL when states have none */
 };
 
-/* A direction of variation: (dt, dy). */
+/* A direction of variation: (dt, dy, d held). */
 struct direction {
     double dt;
     const double *dy;
+    const double *held; /* variations of the inputs that states hold, by parameter; NULL: 0 */
 };
 
 static inline const int *formula_branches(const struct formula *formula, const struct instant *at)

@@ -33,15 +33,10 @@ static struct place place_of(struct fbd_state *state, bool assemble)
         struct place){.model = state->model, .at = state_instant(state), .y = state->y, .assemble = assemble};
 }
 
-static bool has_couplings(const struct fbd_model *model)
-{
-    return model->tree->coupling_count > 0;
-}
-
 /* Are there rows to be satisfied? */
 static bool is_constrained(const struct fbd_model *model, const struct instant *at)
 {
-    return has_couplings(model) && !tree_rows_are_idle(model->tree, at);
+    return tree_has_couplings(model->tree) && !tree_rows_are_idle(model->tree, at);
 }
 
 /* Evaluate links and rows. */
@@ -74,7 +69,7 @@ static void release(const struct place *place)
 
 static struct misfit misfit_of(const struct place *place)
 {
-    struct misfit misfit = {.row = -1, .velocity_row = -1};
+    struct misfit misfit = {.row = -1};
     for (int j = 0; j < place->model->tree->row_count; j++) {
         const struct row *row = &place->at.tree->rows[j];
         if (!tree_takes_part(place->model->tree, &place->at, j)) continue;
@@ -82,10 +77,7 @@ static struct misfit misfit_of(const struct place *place)
             misfit.position = fabs(row->g.x);
             misfit.row = j;
         }
-        if (!(fabs(row->g.x1) <= misfit.velocity)) {
-            misfit.velocity = fabs(row->g.x1);
-            misfit.velocity_row = j;
-        }
+        if (!(fabs(row->g.x1) <= misfit.velocity)) misfit.velocity = fabs(row->g.x1);
     }
     return misfit;
 }
@@ -97,7 +89,7 @@ double state_acceleration_misfit(const struct fbd_state *state, int *row)
     const struct instant at = state_instant(state);
     double worst = 0, mass = 0, force = 0, size = vec_norm(model->scene->gravity);
     *row = -1;
-    if (!has_couplings(model)) return 0;
+    if (!tree_has_couplings(model->tree)) return 0;
     for (int i = 1; i < model->tree->count; i++) {
         mass += model->tree->links[i].mass;
         force = fmax(force, vec_norm(work->links[i].F.force));
@@ -117,7 +109,7 @@ double state_acceleration_misfit(const struct fbd_state *state, int *row)
 
 struct misfit state_misfit(struct fbd_state *state)
 {
-    if (!has_couplings(state->model)) return (struct misfit){0, 0, -1, -1};
+    if (!tree_has_couplings(state->model->tree)) return (struct misfit){0, 0, -1};
     struct place place = place_of(state, false);
     look(&place);
     return misfit_of(&place);
@@ -125,7 +117,7 @@ struct misfit state_misfit(struct fbd_state *state)
 
 void state_start_constraints(struct fbd_state *state)
 {
-    if (!has_couplings(state->model)) return;
+    if (!tree_has_couplings(state->model->tree)) return;
     struct instant at = state_instant(state);
     tree_move(state->model, &at);
     constraints_start(state->model, &at);
@@ -255,7 +247,7 @@ static bool has_redundant_row(const struct fbd_state *state)
 int state_locked_row(const struct fbd_state *state, struct fbd_state *other)
 {
     const double T = 1e3;
-    if (!has_couplings(state->model) || !has_redundant_row(state)) return -1;
+    if (!tree_has_couplings(state->model->tree) || !has_redundant_row(state)) return -1;
     const struct tree *tree = state->model->tree;
     const struct instant at = state_instant(state);
     int n = state->model->plan.n, worst = -1;
@@ -281,7 +273,7 @@ bool state_is_fixed(struct fbd_state *state)
 {
     const struct plan *plan = &state->model->plan;
     const struct tree *tree = state->model->tree;
-    if (!has_couplings(state->model) || tree->ends || tree->row_count < plan->n) return false;
+    if (!tree_has_couplings(state->model->tree) || tree->ends || tree->row_count < plan->n) return false;
     if (plan->mode_count + (size_t)plan->own > 0) return false;
     int independent = 0;
     state_evaluate_unshared(state);
@@ -419,7 +411,7 @@ static bool settle_down(struct fbd_state *state, const struct place *place, doub
 
 bool state_project_position(struct fbd_state *state)
 {
-    if (!has_couplings(state->model)) return true;
+    if (!tree_has_couplings(state->model->tree)) return true;
     struct place place = place_of(state, false);
     size_t n = (size_t)state->model->plan.n, bytes = n * sizeof *state->y;
     double *before = state_scratch(state).dy, *start = before + n;
@@ -434,7 +426,7 @@ bool state_project_position(struct fbd_state *state)
 
 bool state_project(struct fbd_state *state, bool assemble)
 {
-    if (!has_couplings(state->model)) return true;
+    if (!tree_has_couplings(state->model->tree)) return true;
     struct place place = place_of(state, assemble);
     bool there = settle_down(state, &place, state_scratch(state).dy);
     return state_project_velocity(state, assemble) && there;

@@ -11,7 +11,7 @@
 
 struct misfit {
     double position, velocity; /* the largest |g| and |g'|; angles and lengths alike */
-    int row, velocity_row;     /* of these; -1 without rows */
+    int row;                   /* of the position; -1 without rows */
 };
 
 /* The residuals of the constraints at the state. */

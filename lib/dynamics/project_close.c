@@ -28,21 +28,13 @@ static struct closing close_any(struct fbd_state *state)
     return closing;
 }
 
-static double component(struct vec a, int row)
-{
-    return row == 0 ? fabs(a.x) : fabs(a.y);
-}
-
 /* Of the two rows of the pin, along x and y. */
 static struct misfit misfit_of(const struct tree_loop_sight *sight)
 {
-    int row = fabs(sight->off.y) > fabs(sight->off.x),
-        velocity_row = fabs(sight->rate.y) > fabs(sight->rate.x);
-    struct misfit misfit = {component(sight->off, row), component(sight->rate, velocity_row), row,
-                            velocity_row};
-    if (misfit.position == 0) misfit.row = -1;
-    if (misfit.velocity == 0) misfit.velocity_row = -1;
-    return misfit;
+    const struct vec off = {fabs(sight->off.x), fabs(sight->off.y)};
+    const struct misfit misfit = {fmax(off.x, off.y), fmax(fabs(sight->rate.x), fabs(sight->rate.y)),
+                                  off.y > off.x};
+    return misfit.position == 0 ? (struct misfit){0, misfit.velocity, -1} : misfit;
 }
 
 struct closing state_close(struct fbd_state *state)

@@ -22,12 +22,10 @@ static bool has_rows(const struct fbd_state *state, int b)
            (mode->normal_slot < 0 || plan->slot_constant[mode->normal_slot]);
 }
 
-/* Kinetic friction with a constant normal force, as in tree.c. */
-static double constant_friction(const struct fbd_state *state, int b)
+/* Kinetic friction, by its mode, with a constant normal force, as in tree.c. */
+static double constant_friction(const struct fbd_state *state, int friction)
 {
-    const int friction = state->model->bodies[b].friction;
     const struct plan *plan = &state->model->plan;
-    if (friction < 0) return 0;
     const struct mode *mode = &plan->modes[friction];
     double press = 1;
     if (mode->normal_slot >= 0)
@@ -71,7 +69,7 @@ static void set_row(const struct rates *rates, int b, int coordinate, struct row
     }
     row->formulas = plan->formulas + equation->formulas.first;
     row->formula_count = equation->formulas.count;
-    row->friction = constant_friction(state, b);
+    row->friction = friction < 0 ? 0 : constant_friction(state, friction);
     row->has_others = row->square != 0 || row->formula_count > 0;
     take_part(row);
 }

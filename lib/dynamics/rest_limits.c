@@ -42,9 +42,8 @@ static void add_bounds_of_mode(struct rest_system *system, int pair)
     if (!rest_has_limit(mode) || system->at.slip[pair] != stick || mode->kind == mode_plane) return;
     bound.kind = mode->kind == mode_rope ? bound_rope : bound_friction;
     if (bound.kind == bound_friction) {
-        double resting = friction_coefficient(model, pair, &mode->mu_s, &system->at, NULL, NULL);
-        double moving = friction_coefficient(model, pair, &mode->mu_k, &system->at, NULL, NULL);
-        bound.mu = fmax(resting, moving);
+        const struct friction_coefficients mu = friction_coefficients_at(model, pair, &system->at, NULL);
+        bound.mu = fmax(mu.resting, mu.slipping);
         if (mode->moment) bound.unit = system->length;
         add_bound(system, bound);
     }

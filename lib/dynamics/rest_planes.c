@@ -29,12 +29,9 @@ static double limit_of(const struct rest_system *system, int index, const struct
 {
     const struct fbd_model *model = system->state->model;
     const int pair = coupling_at(system, index)->pair;
-    const struct mode *mode = &model->plan.modes[pair];
-    double d_s = 0, d_k = 0;
-    const double resting = friction_coefficient(model, pair, &mode->mu_s, &system->at, flow, &d_s);
-    const double moving = friction_coefficient(model, pair, &mode->mu_k, &system->at, flow, &d_k);
-    *rate = moving > resting ? d_k : d_s;
-    return fmax(0, fmax(resting, moving));
+    const struct friction_coefficients mu = friction_coefficients_at(model, pair, &system->at, flow);
+    *rate = mu.slipping > mu.resting ? mu.d_slipping : mu.d_resting;
+    return fmax(0, fmax(mu.resting, mu.slipping));
 }
 
 static struct vec force_at(const struct rest_system *system, int index, const double *lambda)

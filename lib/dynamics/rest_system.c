@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/disjoint_sets.h"
 #include "dynamics/friction.h"
 #include "dynamics/tree_system.h"
 #include "dynamics/world_refs.h"
@@ -231,7 +232,7 @@ static bool keep_limits(struct rest_system *system)
 {
     enum { most_cuts = 60 };
     double *w = ARENA_ARRAY(system->arena, system->basis_count + 1, double), size;
-    const bool planes = system->state->model->tree && system->state->model->tree->plane_count > 0;
+    const bool planes = system->state->model->tree->plane_count > 0;
     if (!w) return false;
     for (int cut = 0;; cut++) {
         if (!find_within(system, w, &size)) return false;
@@ -247,19 +248,13 @@ static bool keep_limits(struct rest_system *system)
 /* Relative tolerance for dependent columns of E. */
 static const double dependent = solved_rounding;
 
-static int top_of(const int *set, int i)
-{
-    while (set[i] != i) i = set[i];
-    return i;
-}
-
 /* The set of the bodies of row j; 0 if it acts on none that moves. */
 static int set_of_row(const struct rest_system *system, int j)
 {
     const struct row *row = &system->at.tree->rows[j];
     const struct tree_link *links = system->state->model->tree->links;
     for (int i = 0; i < row->port_count; i++)
-        if (row->ports[i].link != 0) return top_of(system->set, links[row->ports[i].link].root);
+        if (row->ports[i].link != 0) return sets_first(system->set, links[row->ports[i].link].root);
     return 0;
 }
 
@@ -270,9 +265,8 @@ static void join_ports(struct rest_system *system, const struct row *row)
     for (int i = 0; i < row->port_count; i++) {
         int link = row->ports[i].link;
         if (link == 0) continue;
-        int top = top_of(system->set, links[link].root);
-        if (first == 0) first = top;
-        system->set[top] = first;
+        if (first > 0) sets_join(system->set, first, links[link].root);
+        first = links[link].root;
     }
 }
 
@@ -299,7 +293,7 @@ static bool allocate(struct rest_system *system, bool among_weak)
     const struct fbd_model *model = system->state->model;
     const struct tree *tree = model->tree;
     struct arena *arena = system->arena;
-    size_t rows = (size_t)(tree ? tree->row_count : 0);
+    size_t rows = (size_t)tree->row_count;
     const struct instant at = system->at;
     system->rows = ARENA_ARRAY(arena, rows + 1, int);
     const int *weak = among_weak ? weak_sets(system) : NULL;
@@ -307,10 +301,10 @@ static bool allocate(struct rest_system *system, bool among_weak)
         if (tree_takes_part(tree, &at, j) && (!weak || weak[set_of_row(system, j)]))
             system->rows[system->m++] = j;
     size_t n = system->n, m = system->m;
-    system->reactions = m + 3 * (size_t)(tree ? tree->count - 1 : 0);
+    system->reactions = m + 3 * (size_t)(tree->count - 1);
     system->held = ARENA_ARRAY(arena, n + 1, bool);
     system->scale = ARENA_ARRAY(arena, n + 1, double);
-    system->reached = ARENA_ARRAY(arena, (size_t)(tree ? tree->count : 0) + 1, bool);
+    system->reached = ARENA_ARRAY(arena, (size_t)tree->count + 1, bool);
     system->lambda = ARENA_ARRAY(arena, rows + 1, double);
     system->Q = ARENA_ARRAY(arena, n + 1, double);
     system->E = ARENA_ARRAY(arena, n * m + 1, double);
@@ -382,7 +376,6 @@ bool rest_solve(struct rest_system *system, struct fbd_state *state, struct aren
     const struct plan *plan = &state->model->plan;
     *system = (struct rest_system){.state = state,
                                    .at = state_instant(state),
-                                   .accelerations = state->a,
                                    .forces = state->slots,
                                    .arena = arena,
                                    .n = (size_t)plan->n,
@@ -408,7 +401,6 @@ void rest_free(struct rest_system *system)
 
 bool rest_is_open(const struct fbd_model *model, const struct instant *at)
 {
-    if (!model->tree) return false;
     for (int j = 0; j < model->tree->row_count; j++)
         if (at->tree->rows[j].weak && tree_takes_part(model->tree, at, j)) return true;
     return false;
@@ -431,27 +423,12 @@ static bool keep_base(struct rest_system *system, const double *slots)
     return true;
 }
 
-/* As the scene moves only columns dependent within rounding, including the gaps of closed contacts: along
- * others the accelerations would change. */
-static double dependent_in_motion(const struct rest_system *system)
-{
-    const double rounding = 1e-11;
-    const struct tree *tree = system->state->model->tree;
-    double away = 0;
-    for (int i = 1; i < tree->count; i++) away = fmax(away, vec_norm(system->at.tree->links[i].p));
-    return fmin(dependent, rounding * (1 + away / system->length));
-}
-
 bool rest_open(struct rest_system *system, struct fbd_state *state, const struct instant *at,
-               const double *slots, const double *accelerations, struct arena *arena)
+               const double *slots, struct arena *arena)
 {
     const struct plan *plan = &state->model->plan;
-    *system = (struct rest_system){.state = state,
-                                   .at = *at,
-                                   .accelerations = accelerations,
-                                   .arena = arena,
-                                   .n = (size_t)plan->n,
-                                   .slots = (size_t)plan->slots};
+    *system = (struct rest_system){
+        .state = state, .at = *at, .arena = arena, .n = (size_t)plan->n, .slots = (size_t)plan->slots};
     if (!rest_is_open(state->model, at)) return false;
     if (!allocate(system, true) || !keep_base(system, slots) || !find_sizes(system)) return false;
     for (size_t j = 0; system->force == 0 && j < system->m; j++) /* for rotations without a load */
@@ -460,8 +437,7 @@ bool rest_open(struct rest_system *system, struct fbd_state *state, const struct
     set_scales(system);
     set_columns(system);
     double *least = ARENA_ARRAY(arena, system->m + 1, double);
-    bool made =
-        least && qr_decompose(&system->qr, system->n, system->m, system->E, dependent_in_motion(system));
+    bool made = least && qr_decompose(&system->qr, system->n, system->m, system->E, dependent_row);
     evaluate(system);
     made = made && rest_set_basis(system, least);
     system->least = least;

@@ -56,7 +56,6 @@ struct rest_system {
     size_t n, m, slots, reactions; /* coordinates, active rows, plan.slots, entries of r */
     int *rows;                     /* m: their numbers */
     int *set;                      /* of each link: another one of its set, or itself (weak_sets) */
-    const double *accelerations;   /* n */
     bool *held, *reached;          /* n; tree.count: the links that the forces of a row reach */
     double *scale;                 /* n: 1, or one over the length for an angle; 0 if held */
     double *lambda;                /* row_count: the change from those of the base */
@@ -136,7 +135,7 @@ bool rest_part(const struct rest_system *system, const double *G, int which, str
 /* Set up the system of a moving state, evaluated in its modes. False when its constraints leave no
  * multipliers indeterminate, or memory is out (arena->failed). */
 bool rest_open(struct rest_system *system, struct fbd_state *state, const struct instant *at,
-               const double *slots, const double *accelerations, struct arena *arena);
+               const double *slots, struct arena *arena);
 
 /* Choose the indeterminate reactions: slots, and the forces in the links and rows of the state's tree, become
  * those of the least reactions within limits. */

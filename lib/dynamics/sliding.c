@@ -20,7 +20,7 @@ static size_t double_count(const struct fbd_model *model)
     const struct plan *plan = &model->plan;
     size_t room = (size_t)plan->slide_count, n = (size_t)plan->n, size = plan_size(plan);
     return 2 * room * room + n * room + 3 * room + 3 * most_switches(plan) + 2 * (size_t)plan->slots + 4 * n +
-           6 * size + extended_size(model) + size;
+           6 * size + extended_size(model) + size + model->scene->parameter_count;
 }
 
 static size_t int_count(const struct plan *plan)
@@ -46,12 +46,13 @@ void sliding_init(struct sliding *sliding, const struct fbd_model *model, void *
            switches = most_switches(plan);
     sliding->slides = memory;
     double *next = (double *)(sliding->slides + room);
-    double **const parts[] = {&sliding->M,        &sliding->lu,     &sliding->B,           &sliding->c,
-                              &sliding->delta,    &sliding->step,   &sliding->u,           &sliding->rate,
-                              &sliding->rounding, &sliding->slots,  &sliding->slots_along, &sliding->a,
-                              &sliding->a_along,  &sliding->flow,   &sliding->zero,        &sliding->kept_y,
-                              &sliding->own_y,    &sliding->own_dy, &sliding->best,        &sliding->moved,
-                              &sliding->as_fast,  &sliding->shifted};
+    double **const parts[] = {
+        &sliding->M,        &sliding->lu,           &sliding->B,           &sliding->c,
+        &sliding->delta,    &sliding->step,         &sliding->u,           &sliding->rate,
+        &sliding->rounding, &sliding->slots,        &sliding->slots_along, &sliding->a,
+        &sliding->a_along,  &sliding->flow,         &sliding->zero,        &sliding->kept_y,
+        &sliding->own_y,    &sliding->own_dy,       &sliding->best,        &sliding->moved,
+        &sliding->as_fast,  &sliding->shifted_held, &sliding->shifted};
     const size_t sizes[] = {room * room,
                             room * room,
                             n * room,
@@ -71,6 +72,7 @@ void sliding_init(struct sliding *sliding, const struct fbd_model *model, void *
                             size,
                             size,
                             n,
+                            model->scene->parameter_count,
                             size,
                             n,
                             extended_size(model) + size};

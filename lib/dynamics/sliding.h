@@ -65,8 +65,9 @@ struct sliding {
     int *pivot;
     double *u, *rate, *rounding; /* of the switches of one formula */
     double *slots, *slots_along, *a, *a_along, *flow, *zero, *shifted, *own_y, *own_dy, *best, *moved;
-    int *kept;      /* 2 plan.branches + 2 plan.mode_count: saved modes while others are tried */
-    double *kept_y; /* plan_size */
+    double *shifted_held; /* by parameter, as instant.held */
+    int *kept;            /* 2 plan.branches + 2 plan.mode_count: saved modes while others are tried */
+    double *kept_y;       /* plan_size */
 };
 
 size_t sliding_size(const struct fbd_model *model);

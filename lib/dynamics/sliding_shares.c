@@ -23,7 +23,7 @@ static double switching(struct sliding *s, const struct fbd_model *model, const 
                         const struct kink *kink, int part, double dt, const double *dy, double *rate)
 {
     const struct instant at = instant_extend(model, given);
-    const struct direction own = {dt, dy}, along = direction_extend(model, &at, &own);
+    const struct direction own = {.dt = dt, .dy = dy}, along = direction_extend(model, &at, &own);
     expr_switchings(kink->formula.expr, at.t, at.y, along.dt, along.dy, at.branch + kink->formula.branch,
                     s->u, s->rate, s->rounding);
     *rate = s->rate[part];
@@ -273,7 +273,7 @@ static void responses(const struct fbd_model *model, const struct instant *at)
 {
     struct sliding *s = at->sliding;
     size_t n = (size_t)model->plan.n;
-    const struct direction none = {0, s->zero};
+    const struct direction none = {.dy = s->zero};
     for (int unit = 0; unit < s->units; unit++) {
         for (int j = 0; j < s->count; j++)
             s->slides[j].along = s->slides[j].unit == unit ? s->slides[j].sign : 0;
@@ -354,22 +354,40 @@ void sliding_clear_rounding_along(const struct fbd_model *model, const struct in
     clear_rounding(model, at, true, a_along);
 }
 
+/* Move an instant by h along a direction. */
+static void shift(struct sliding *s, const struct fbd_model *model, const struct direction *along, double h,
+                  const struct instant *at, struct instant *beside)
+{
+    for (size_t i = 0; i < plan_size(&model->plan); i++) s->shifted[i] = at->y[i] + h * along->dy[i];
+    beside->y = s->shifted;
+    beside->t = at->t + h * along->dt;
+    if (!along->held) return;
+    for (size_t i = 0; i < model->scene->parameter_count; i++)
+        s->shifted_held[i] = at->held[i] + h * along->held[i];
+    beside->held = s->shifted_held;
+}
+
+static double size_of_direction(const struct fbd_model *model, const struct direction *along)
+{
+    double size = fabs(along->dt);
+    for (size_t i = 0; i < plan_size(&model->plan); i++) size = fmax(size, fabs(along->dy[i]));
+    for (size_t i = 0; along->held && i < model->scene->parameter_count; i++)
+        size = fmax(size, fabs(along->held[i]));
+    return size;
+}
+
 /* D^2 u [f, d] for the motion f: the change of the rates with position, by central differences; exactly zero
  * for affine u, the usual case. */
 static void add_curvature(const struct fbd_model *model, const struct instant *at,
                           const struct direction *along, double *sum)
 {
     struct sliding *s = at->sliding;
-    size_t count = plan_size(&model->plan);
-    double size = fabs(along->dt), place = 1 + fabs(at->t);
-    for (size_t i = 0; i < count; i++) size = fmax(size, fabs(along->dy[i]));
+    double size = size_of_direction(model, along), place = 1 + fabs(at->t);
     if (size == 0) return;
     double h = 1e-5 * place / size;
     struct instant beside = *at;
-    beside.y = s->shifted;
     for (int side = 1; side >= -1; side -= 2) {
-        for (size_t i = 0; i < count; i++) s->shifted[i] = at->y[i] + side * h * along->dy[i];
-        beside.t = at->t + side * h * along->dt;
+        shift(s, model, along, side * h, at, &beside);
         sliding_rates(model, &beside, 1, s->flow, s->step);
         for (int k = 0; k < s->units; k++) sum[k] += side * s->step[k] / (2 * h);
     }
@@ -388,7 +406,7 @@ void sliding_solve_along(const struct fbd_model *model, const struct instant *gi
     memcpy(s->own_dy, direction->dy, size * sizeof *s->own_dy);
     struct instant at = *given;
     at.y = s->own_y;
-    const struct direction along = {direction->dt, s->own_dy};
+    const struct direction along = {direction->dt, s->own_dy, direction->held};
     accelerations_along_at_shares(model, &at, &along, s->slots, s->slots_along, s->a_along);
     memcpy(s->flow, along.dy + n, n * sizeof *s->flow);
     memcpy(s->flow + n, s->a_along, n * sizeof *s->flow);

@@ -16,7 +16,7 @@ static void share_out(struct fbd_state *state, double *slots)
     state->tree->shared_size = 0;
     if (!rest_is_open(state->model, &at)) return;
     struct arena arena = state_lend(state);
-    if (rest_open(&system, state, &at, slots, state->a, &arena)) rest_share(&system, slots);
+    if (rest_open(&system, state, &at, slots, &arena)) rest_share(&system, slots);
     rest_free(&system);
     state_take_back(state, &arena);
 }

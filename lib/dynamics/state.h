@@ -77,7 +77,7 @@ static inline struct direction state_flow(const struct fbd_state *state, double 
     size_t n = (size_t)plan->n;
     memcpy(dy, state->y + n, n * sizeof *dy);
     memcpy(dy + n, state->a, plan_rates(plan) * sizeof *dy);
-    return (struct direction){1, dy};
+    return (struct direction){.dt = 1, .dy = dy};
 }
 
 /* A state of zeros, without modes, for the functions that make states: in an arena, or NULL for a block of its own. NULL

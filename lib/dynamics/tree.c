@@ -85,6 +85,19 @@ static void start_lives(const struct fbd_model *model, int *life)
     }
 }
 
+/* Set the numbers of links that are constant. */
+static void start_links(const struct tree *tree, struct tree_state *links)
+{
+    links[0].turn = links[0].e = (struct vec){1, 0};
+    for (int i = 1; i < tree->count; i++) {
+        struct tree_state *s = &links[i];
+        s->mass = tree->links[i].mass;
+        s->I_O = tree->links[i].I_O;
+        s->across = tree->links[i].across;
+        if (link_is_alone(tree, i)) tree_begin_alone(&tree->links[i], s);
+    }
+}
+
 void tree_work_init(struct tree_work *work, const struct fbd_model *model, void *memory)
 {
     const struct tree *tree = model->tree;
@@ -138,14 +151,7 @@ void tree_work_init(struct tree_work *work, const struct fbd_model *model, void 
     }
     work->damping = projection_damping;
     work->accuracy = solved_rounding;
-    work->links[0].turn = work->links[0].e = (struct vec){1, 0};
-    for (int i = 1; i < tree->count; i++) {
-        struct tree_state *s = &work->links[i];
-        s->mass = tree->links[i].mass;
-        s->I_O = tree->links[i].I_O;
-        s->across = tree->links[i].across;
-        if (link_is_alone(tree, i)) tree_begin_alone(&tree->links[i], s);
-    }
+    start_links(tree, work->links);
 }
 
 /* ---- results */

@@ -12,11 +12,6 @@
  */
 #include "dynamics/tree.h"
 
-static struct vec turning(double rate, struct vec a)
-{
-    return vec_scale(rate, vec_perp(a));
-}
-
 /* The velocity in the joint, in the world. */
 static struct vec joint_velocity(const struct tree_link *link, const struct tree_state *s, const double *v)
 {
@@ -36,7 +31,7 @@ static void hold(const struct tree_link *link, struct tree_state *s)
 
 static void bend(const struct tree_link *link, struct tree_state *s, double v)
 {
-    s->A.a = vec_add(s->A.a, turning(s->bend * v * v, s->e));
+    s->A.a = vec_add(s->A.a, vec_turning(s->bend * v * v, s->e));
     if (link->track->turns) s->A.alpha += s->slope * v * v;
 }
 
@@ -46,7 +41,7 @@ static void bend_along(const struct tree_link *link, const struct instant *at, c
     double dq = along->dy[link->coordinate], v = at->y[n + link->coordinate],
            dv = along->dy[n + link->coordinate];
     double d_bend = s->slope * dq * v * v + 2 * s->bend * v * dv;
-    d->A.a = vec_add(d->A.a, vec_add(turning(d_bend, s->e), turning(s->bend * v * v, d->e)));
+    d->A.a = vec_add(d->A.a, vec_add(vec_turning(d_bend, s->e), vec_turning(s->bend * v * v, d->e)));
     if (!link->track->turns) return;
     const int *piece = link->track->piece.expr ? formula_branches(&link->track->piece, at) : NULL;
     double rate = curve_slope_rate(link->track->curve, piece, at->y[link->coordinate]);
@@ -67,7 +62,7 @@ static inline __attribute__((always_inline)) void bias(const struct tree *tree, 
         s->A.a.y -= w2 * s->d.y;
         if (link->kind != motion_pivot) {
             struct vec w = joint_velocity(link, s, at->y + n + link->coordinate);
-            s->A.a = vec_add(s->A.a, turning(2 * parent->omega, w));
+            s->A.a = vec_add(s->A.a, vec_turning(2 * parent->omega, w));
         }
         if (curved && link->track) bend(link, s, at->y[n + link->coordinate]);
         if (s->locked) hold(link, s);
@@ -117,13 +112,13 @@ void tree_bias_along(const struct tree *tree, const struct instant *at, const st
         struct tree_variation *d = &variation[i];
         double omega = parent->omega;
         d->A = acceleration_at(dp->A, s->d);
-        d->A.a = vec_add(d->A.a, turning(parent->A.alpha, d->d));
+        d->A.a = vec_add(d->A.a, vec_turning(parent->A.alpha, d->d));
         d->A.a = vec_sub(d->A.a, vec_scale(omega * omega, d->d));
         d->A.a = vec_sub(d->A.a, vec_scale(2 * omega * dp->omega, s->d));
         if (link->kind != motion_pivot) {
             const double *v = at->y + n + link->coordinate, *dv = along->dy + n + link->coordinate;
             struct vec w = joint_velocity(link, s, v), dw = joint_velocity_along(link, s, d, v, dv);
-            d->A.a = vec_add(d->A.a, vec_add(turning(2 * dp->omega, w), turning(2 * omega, dw)));
+            d->A.a = vec_add(d->A.a, vec_add(vec_turning(2 * dp->omega, w), vec_turning(2 * omega, dw)));
             d->A.a = vec_add(d->A.a, joint_acceleration_along(link, d, a + link->coordinate));
         }
         if (link->track) {
@@ -133,8 +128,8 @@ void tree_bias_along(const struct tree *tree, const struct instant *at, const st
         if (s->locked && link->kind == motion_pivot) d->A.alpha += d->held;
         if (s->locked && link->kind != motion_pivot) d->A.a = vec_add(d->A.a, vec_scale(d->held, s->e));
         if (s->locked && link->track) d->A.alpha += d->held * s->turning;
-        struct vec dmr = turning(d->angle, s->mr), f = vec_scale(s->mass, d->A.a);
-        f = vec_add(f, vec_add(turning(d->A.alpha, s->mr), turning(s->A.alpha, dmr)));
+        struct vec dmr = vec_turning(d->angle, s->mr), f = vec_scale(s->mass, d->A.a);
+        f = vec_add(f, vec_add(vec_turning(d->A.alpha, s->mr), vec_turning(s->A.alpha, dmr)));
         f = vec_sub(f, vec_scale(2 * s->omega * d->omega, s->mr));
         x[i].p.force = vec_sub(f, vec_scale(s->omega * s->omega, dmr));
         x[i].p.moment = vec_cross(dmr, s->A.a) + vec_cross(s->mr, d->A.a) + s->I_O * d->A.alpha -

@@ -10,7 +10,7 @@
 #include "dynamics/diagram.h"
 #include "dynamics/mass.h"
 
-static struct vec mass_center(const struct model_body *body, const struct instant *at)
+struct vec mass_center(const struct model_body *body, const struct instant *at)
 {
     struct pose pose = body_pose(body, at);
     return point_motion(body, &pose, body->inertia.G).p;

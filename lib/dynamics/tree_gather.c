@@ -345,8 +345,10 @@ bool gathered_find(struct gathered *all, struct fbd_state *state, const struct d
         struct hold *hold = &all->problem.holds[i];
         hold->kind = mode_is_friction(mode) ? hold_friction : hold_one_sided;
         if (hold->kind == hold_one_sided) continue;
-        hold->mu_s = friction_coefficient(state->model, all->pair[i], &mode->mu_s, &at, NULL, NULL);
-        hold->mu_k = friction_coefficient(state->model, all->pair[i], &mode->mu_k, &at, NULL, NULL);
+        const struct friction_coefficients mu =
+            friction_coefficients_at(state->model, all->pair[i], &at, NULL);
+        hold->mu_s = mu.resting;
+        hold->mu_k = mu.slipping;
         hold->slip = hold_slips_already(state, decided, forced, all->pair[i]);
         set_press(all, i, &guides);
     }

@@ -61,10 +61,13 @@ bool gathered_find(struct gathered *all, struct fbd_state *state, const struct d
                    bool shares_answer);
 void gathered_free(struct gathered *all);
 
+/* With the weights of sliding modes as unknowns; with no more digits than the equations of motion resolve. */
+enum gathering { as_it_is, with_shares, coarsely };
+
 /* Set up that problem, and set the modes by pivoting. `barely`: for each constraint an alternative mode that
  * is as consistent, 0 for none, or keeps_still. */
 enum holds_found gathered_solve(struct fbd_state *state, const struct decided *decided, int *forced,
-                                int *barely, bool shares_answer);
+                                int *barely, enum gathering how);
 
 /* Direct the normal forces of journals along their reactions by the present forces of the constraints. True when
  * that changes the problem. */

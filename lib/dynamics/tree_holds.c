@@ -133,7 +133,7 @@ static int next_mode(const struct fbd_state *state, const struct decided *decide
         return now.force < -beyond * nothing || *by_rate ? slip_plus : stick;
     }
     if (state->slip[pair] != stick) return turns_back(state, pair) ? stick : state->slip[pair];
-    struct direction flow = {1, state_scratch(state).dy};
+    struct direction flow = {.dt = 1, .dy = state_scratch(state).dy};
     struct friction_values now = friction_at(model, pair, &at, slots);
     struct friction_values rate = friction_along(model, pair, &at, slots, &flow, slots_along);
     double excess = fabs(now.hold) - now.limit;
@@ -304,12 +304,12 @@ static enum agreement keep_closed(struct fbd_state *state, const struct decided 
 
 /* Solve, and let rates decide constraints at their limit, one after the other. False where the resulting
  * forces contradict the solution. */
-static bool decide(struct fbd_state *state, const struct decided *decided, int *forced, bool shares_answer)
+static bool decide(struct fbd_state *state, const struct decided *decided, int *forced, enum gathering how)
 {
     int count = (int)state->model->plan.mode_count, *barely = state->slip_barely;
     for (int round = 0; round <= count; round++) {
         memset(barely, 0, (size_t)count * sizeof *barely);
-        if (gathered_solve(state, decided, forced, barely, shares_answer) >= holds_none) return false;
+        if (gathered_solve(state, decided, forced, barely, how) >= holds_none) return false;
         enum agreement found = look_at_solved(state, decided, forced);
         if (found == agrees) found = keep_closed(state, decided, forced);
         if (found == agrees) return true;
@@ -326,6 +326,26 @@ static bool decide(struct fbd_state *state, const struct decided *decided, int *
         if (!more && found == differs) more = open_what_barely_holds(state, forced);
         if (!more) return false;
     }
+    return false;
+}
+
+/* The same from the start, in another way. */
+static bool decide_again(struct fbd_state *state, const struct decided *decided, int *forced,
+                         enum gathering how)
+{
+    state->holds = (struct holds_trouble){.found = holds_decided, .pair = -1, .contradicts = -1};
+    tree_find_frictionless(state, decided, forced);
+    return decide(state, decided, forced, how);
+}
+
+/* Forces contradict their modes where rows are nearly dependent, as of a disc between two others in one line: its normal
+ * forces there are below the resolution of the equations of motion. */
+static bool decide_coarsely(struct fbd_state *state, const struct decided *decided, int *forced)
+{
+    const struct holds_trouble trouble = state->holds;
+    if (trouble.found != holds_decided || trouble.contradicts < 0) return false;
+    if (decide_again(state, decided, forced, coarsely)) return true;
+    state->holds = trouble;
     return false;
 }
 
@@ -346,9 +366,7 @@ static bool decide_with_shares(struct fbd_state *state, const struct decided *de
 {
     const struct sliding *s = state_sliding(state);
     if (!s || (agreed && shares_fit(s)) || state->holds.found == holds_no_memory) return agreed;
-    state->holds = (struct holds_trouble){.found = holds_decided, .pair = -1, .contradicts = -1};
-    tree_find_frictionless(state, decided, forced);
-    return decide(state, decided, forced, true);
+    return decide_again(state, decided, forced, with_shares);
 }
 
 /* Set friction at rest that has no force to the side of the beginning motion. */
@@ -467,7 +485,7 @@ bool tree_settle_holds(struct fbd_state *state, const struct decided *decided, b
     }
     bool agreed = !holds_what_is_driven(state, decided, forced) &&
                   look(state, decided, forced, false) == agrees && !tree_is_doubtful(state);
-    agreed = agreed || decide(state, decided, forced, false);
+    agreed = agreed || decide(state, decided, forced, as_it_is) || decide_coarsely(state, decided, forced);
     agreed = decide_with_shares(state, decided, forced, agreed);
     agreed = agreed && ((decided && decided->later) || look_later(state, decided, forced));
     turn_idle(state, decided);

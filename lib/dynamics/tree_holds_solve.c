@@ -75,13 +75,14 @@ static enum holds_found decide_directed(struct gathered *all)
 }
 
 enum holds_found gathered_solve(struct fbd_state *state, const struct decided *decided, int *forced,
-                                int *barely, bool shares_answer)
+                                int *barely, enum gathering how)
 {
     struct gathered all;
     enum holds_found found = holds_no_memory;
-    if (gathered_find(&all, state, decided, forced, shares_answer)) {
+    if (gathered_find(&all, state, decided, forced, how == with_shares)) {
         tree_find_unpressed(&all, decided, forced);
         all.problem.basic = true; /* for barely_holds */
+        all.problem.coarse = how == coarsely;
         found = decide_directed(&all);
         if (found != holds_decided) state->holds = trouble_of(&all, found);
     }

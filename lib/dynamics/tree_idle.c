@@ -22,7 +22,7 @@ void tree_find_frictionless(struct fbd_state *state, const struct decided *decid
 {
     const struct fbd_model *model = state->model;
     struct instant at = state_instant(state);
-    const struct direction flow = {1, state_scratch(state).dy};
+    const struct direction flow = {.dt = 1, .dy = state_scratch(state).dy};
     for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
         const struct mode *hold = mode_of(state, pair);
         state->slip_idle[pair] = forced[pair] = 0;

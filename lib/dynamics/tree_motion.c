@@ -113,12 +113,6 @@ void tree_move_turned(const struct fbd_model *model, const struct instant *at, c
     move_links(model, at, false, turns);
 }
 
-/* d(R a) = dangle k x R a. */
-static struct vec turning(double angle, struct vec a)
-{
-    return vec_scale(angle, vec_perp(a));
-}
-
 void tree_move_along(const struct fbd_model *model, const struct instant *at, const struct direction *along)
 {
     const struct tree *tree = model->tree;
@@ -134,34 +128,35 @@ void tree_move_along(const struct fbd_model *model, const struct instant *at, co
         const double *dq = along->dy + link->coordinate, *dv = dq + n;
         d->angle = dp->angle;
         d->omega = dp->omega;
-        d->d = turning(dp->angle, s->d);
+        d->d = vec_turning(dp->angle, s->d);
         d->e = (struct vec){0, 0};
         struct vec own = {0, 0}; /* of the velocity relative to the parent */
         if (link->kind == motion_pivot) {
             d->angle += dq[0];
             d->omega += dv[0];
         } else if (link->kind == motion_slide) {
-            d->e = turning(dp->angle, s->e);
+            d->e = vec_turning(dp->angle, s->e);
             d->d = vec_add(d->d, vec_scale(dq[0], s->e));
             own = vec_add(vec_scale(v[0], d->e), vec_scale(dv[0], s->e));
         } else if (link->kind == motion_track) {
-            d->e = turning(dp->angle + s->bend * dq[0], s->e);
+            d->e = vec_turning(dp->angle + s->bend * dq[0], s->e);
             d->turning = link->track->turns ? s->slope * dq[0] : 0;
             d->d = vec_add(d->d, vec_scale(dq[0], s->e));
             d->angle += s->turning * dq[0];
             d->omega += s->turning * dv[0] + d->turning * v[0];
             own = vec_add(vec_scale(v[0], d->e), vec_scale(dv[0], s->e));
         } else {
-            d->e = turning(dp->angle, s->e);
+            d->e = vec_turning(dp->angle, s->e);
             d->d = vec_add(d->d, vec_turn(s->e, (struct vec){dq[0], dq[1]}));
             struct vec w = vec_turn(s->e, (struct vec){v[0], v[1]});
-            own = vec_add(turning(dp->angle, w), vec_turn(s->e, (struct vec){dv[0], dv[1]}));
+            own = vec_add(vec_turning(dp->angle, w), vec_turn(s->e, (struct vec){dv[0], dv[1]}));
             if (link->kind == motion_planar) {
                 d->angle += dq[2];
                 d->omega += dv[2];
             }
         }
         d->p = vec_add(dp->p, d->d);
-        d->v = vec_add(vec_add(dp->v, own), vec_add(turning(dp->omega, s->d), turning(parent->omega, d->d)));
+        d->v = vec_add(vec_add(dp->v, own),
+                       vec_add(vec_turning(dp->omega, s->d), vec_turning(parent->omega, d->d)));
     }
 }

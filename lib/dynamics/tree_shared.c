@@ -34,7 +34,7 @@ bool tree_choose_sides(struct fbd_state *state, const double *slots)
     struct arena arena = state_lend(state);
     struct rest_system system;
     struct instant at = state_instant(state);
-    bool open = rest_open(&system, state, &at, slots, state->a, &arena);
+    bool open = rest_open(&system, state, &at, slots, &arena);
     bool changed = open && rest_choose_sides(&system);
     if (open) rest_restore(&system);
     rest_free(&system);
@@ -47,7 +47,7 @@ bool tree_find_margin(struct fbd_state *state, const struct instant *at, enum re
                       struct arena *arena, struct rest_margin *margin)
 {
     struct rest_system system;
-    bool found = rest_open(&system, state, at, slots, flow->dy + state->model->plan.n, arena) &&
+    bool found = rest_open(&system, state, at, slots, arena) &&
                  rest_find_margin(&system, scope, slots_along, at->tree->z, flow, margin);
     if (system.base.F) rest_restore(&system);
     rest_free(&system);

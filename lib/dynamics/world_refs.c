@@ -120,7 +120,7 @@ static double slip_along(const struct fbd_model *model, const struct model_absol
 
 /* ---- inputs that are no constants
  *
- * A value that a state holds has no variation. A callback u(t, y) has no exact derivatives; its variation is the central
+ * A value that a state holds varies in directions of its own only. A callback u(t, y) has no exact derivatives; its variation is the central
  * difference
  *
  *   u' = (u(t + h dt, y + h dy) - u(t - h dt, y - h dy)) / (2 h),
@@ -153,7 +153,7 @@ static double called_along(const struct fbd_model *model, int input, const struc
 {
     double y[most_called_numbers], values[2];
     const size_t size = plan_size(&model->plan);
-    const double h = model->scene->parameters[input].call.held ? 0 : called_step(at, along, size);
+    const double h = called_step(at, along, size);
     if (h == 0) return 0;
     for (int k = 0; k < 2; k++) {
         const double step = k == 0 ? -h : h;
@@ -161,6 +161,13 @@ static double called_along(const struct fbd_model *model, int input, const struc
         values[k] = called(model, input, at->t + step * along->dt, y);
     }
     return (values[1] - values[0]) / (2 * h);
+}
+
+static double input_along(const struct fbd_model *model, int input, const struct instant *at,
+                          const struct direction *along)
+{
+    if (!model->scene->parameters[input].call.held) return called_along(model, input, at, along);
+    return along->held ? along->held[input] : 0;
 }
 
 /* ---- all of them */
@@ -237,7 +244,7 @@ static double varied(const struct fbd_model *model, const struct model_absolute 
     const struct model_body *body = &model->bodies[absolute->body];
     if (absolute->kind == absolute_reaction) return 0;
     if (absolute->kind == absolute_slip) return slip_along(model, absolute, at, along);
-    if (absolute->kind == absolute_input) return called_along(model, absolute->coordinate, at, along);
+    if (absolute->kind == absolute_input) return input_along(model, absolute->coordinate, at, along);
     if (absolute->kind == absolute_mass) {
         double variation;
         formula_along(&body->mass, at, along, &variation);
@@ -262,7 +269,7 @@ struct direction direction_extend(const struct fbd_model *model, const struct in
     if (along->dy != dy) memcpy(dy, along->dy, size * sizeof *dy);
     tree_move_along(model, at, along);
     tree_move_alone_along(model, at, along);
-    const struct direction extended = {along->dt, dy};
+    const struct direction extended = {along->dt, dy, along->held};
     for (int rates = 0; rates < 2; rates++) /* rates of masses depend on all others */
         for (size_t k = 0; k < model->absolute_count; k++)
             if ((model->absolutes[k].kind == absolute_mass_rate) == (rates == 1))

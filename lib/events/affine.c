@@ -52,7 +52,7 @@ static bool find_limit(const struct fbd_state *state, int pair, double *limit)
     const struct mode *mode = &plan->modes[pair];
     const struct scalar_equation *equation = &plan->equations[mode->coordinate];
     double press = 1;
-    if (mode->mu_s.expr || mode->mu_k.expr) return false;
+    if (mode_friction_varies(mode)) return false;
     if (mode->normal_slot >= 0) {
         if (equation->across_formulas.count > 0) return false;
         press = fmax(0, -state->pull[pair] * equation->across);

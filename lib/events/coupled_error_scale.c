@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/disjoint_sets.h"
 #include "dynamics/constraint.h"
 #include "dynamics/tree_system.h"
 #include "integrate/switcher.h"
@@ -30,18 +31,6 @@ bool coupled_scales_init(struct coupled_scales *mechanisms, const struct fbd_mod
     return true;
 }
 
-/* Disjoint sets with path halving (Tarjan and van Leeuwen, Journal of the ACM 31 (1984) 245). */
-static int find(int *of, int link)
-{
-    while (of[link] != link) link = of[link] = of[of[link]];
-    return link;
-}
-
-static void unite(int *of, int a, int b)
-{
-    of[find(of, a)] = find(of, b);
-}
-
 /* After all unions, when `of` holds the representatives. */
 static struct mechanism *mechanism_of(const struct coupled_scales *mechanisms, int link)
 {
@@ -54,7 +43,7 @@ static void join_row(struct coupled_scales *mechanisms, const struct row *row)
     int first = 0;
     for (int k = 0; k < row->port_count; k++) {
         int link = row->ports[k].link;
-        if (link > 0 && first > 0) unite(mechanisms->of, first, link);
+        if (link > 0 && first > 0) sets_join(mechanisms->of, first, link);
         if (link > 0) first = link;
     }
 }
@@ -80,10 +69,10 @@ void coupled_scales_join(struct coupled_scales *mechanisms, const struct fbd_sta
         mechanisms->members[i] = (struct mechanism){0};
     }
     for (int i = 1; i < tree->joined; i++)
-        if (tree->links[i].parent > 0) unite(mechanisms->of, i, tree->links[i].parent);
+        if (tree->links[i].parent > 0) sets_join(mechanisms->of, i, tree->links[i].parent);
     for (int j = 0; j < tree->row_count; j++)
         if (tree_takes_part(tree, &at, j)) join_row(mechanisms, &state->tree->rows[j]);
-    for (int i = 1; i < tree->joined; i++) mechanisms->of[i] = find(mechanisms->of, i);
+    for (int i = 1; i < tree->joined; i++) mechanisms->of[i] = sets_first(mechanisms->of, i);
     for (int j = 0; j < tree->row_count; j++)
         if (tree_takes_part(tree, &at, j)) measure_row(mechanisms, &state->tree->rows[j]);
     for (int i = 1; i < tree->joined; i++) {

@@ -83,7 +83,8 @@ double poles_longest_step(struct poles *poles, const struct fbd_state *state, co
     struct instant now = state_instant(state), at = instant_extend(state->model, &now);
     memcpy(poles->dy, state->y + n, n * sizeof(double));
     memcpy(poles->dy + n, state->a, plan_rates(plan) * sizeof(double));
-    const struct direction motion = {1, poles->dy}, flow = direction_extend(state->model, &at, &motion);
+    const struct direction motion = {.dt = 1, .dy = poles->dy},
+                           flow = direction_extend(state->model, &at, &motion);
     divisors_at(state->model, &at, &flow, poles->start, poles->rate);
     for (size_t i = 0; i < plan->pole_count; i++) {
         double change;
@@ -116,7 +117,7 @@ bool poles_passed(struct poles *poles, const struct fbd_state *during, double h,
     if (poles->count == 0) return false;
     struct instant end = state_instant_at(during, t, y);
     struct instant at = instant_extend(during->model, &end);
-    const struct direction motion = {1, f}, flow = direction_extend(during->model, &at, &motion);
+    const struct direction motion = {.dt = 1, .dy = f}, flow = direction_extend(during->model, &at, &motion);
     divisors_at(during->model, &at, &flow, poles->end, poles->end_rate);
     for (size_t i = 0; i < poles->count; i++) {
         double a = poles->start[i], b = poles->end[i], side = a < 0 ? -1 : 1;

@@ -315,11 +315,6 @@ static double bend(int degree, const double *c, double s)
     return sum;
 }
 
-static struct interval around(double centre, double radius)
-{
-    return interval_widen(centre - radius, centre + radius, 1);
-}
-
 struct enclosure series_enclose(const struct series *series, size_t i, const struct stretch *stretch)
 {
     const double *c = series->c + i * nodes;
@@ -328,6 +323,7 @@ struct enclosure series_enclose(const struct series *series, size_t i, const str
     double n = series->degree, p = evaluate(series->degree, c, s0, &slope);
     double curve = bend(series->degree, c, fmin(fabs(s0) + r, 1));
     double reach = fabs(slope) * r + curve * r * r / 2;
-    struct interval rate = around(slope, curve * r + n * n * doubt);
-    return (struct enclosure){around(p, reach + doubt), interval_scale(1 / radius, rate), around(p, doubt)};
+    struct interval rate = interval_around(slope, curve * r + n * n * doubt);
+    return (struct enclosure){interval_around(p, reach + doubt), interval_scale(1 / radius, rate),
+                              interval_around(p, doubt)};
 }

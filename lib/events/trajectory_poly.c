@@ -295,11 +295,6 @@ static void shift(int degree, const double *c, double s0, double *b)
         for (int j = degree - 1; j >= k; j--) b[j] += s0 * b[j + 1];
 }
 
-static struct interval around(double centre, double radius)
-{
-    return interval_widen(centre - radius, centre + radius, 1);
-}
-
 void trajectory_enclose(struct trajectory *trajectory, const struct stretch *stretch, const bool *wanted)
 {
     double radius = (trajectory->to - trajectory->from) / 2, middle = trajectory->from + radius,
@@ -322,7 +317,7 @@ void trajectory_enclose(struct trajectory *trajectory, const struct stretch *str
         }
         if (top == at_rest) {
             *now = enclosure_point(c[0]);
-            if (doubt > 0) now->value = now->middle = around(c[0], doubt);
+            if (doubt > 0) now->value = now->middle = interval_around(c[0], doubt);
             continue;
         }
         b[1] = 0;
@@ -333,9 +328,9 @@ void trajectory_enclose(struct trajectory *trajectory, const struct stretch *str
             bend += fabs(b[k]) * power * r;
         }
         double steep = doubt * trajectory->degree; /* doubt over the spacing of samples */
-        now->value = around(b[0], fabs(b[1]) * r + bend + doubt);
-        now->rate = interval_scale(1 / radius, around(b[1], slope + steep));
-        now->middle = around(b[0], doubt);
+        now->value = interval_around(b[0], fabs(b[1]) * r + bend + doubt);
+        now->rate = interval_scale(1 / radius, interval_around(b[1], slope + steep));
+        now->middle = interval_around(b[0], doubt);
     }
 }
 

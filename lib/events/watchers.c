@@ -46,8 +46,7 @@ static void add_shares(struct watchers *watchers, const struct plan *plan)
 static bool always_the_same(const struct plan *plan, const struct mode *mode)
 {
     return mode->coupling < 0 && plan->slot_constant[mode->coordinate] && !mode->surface_speed.expr &&
-           !mode->mu_s.expr && !mode->mu_k.expr &&
-           (mode->normal_slot < 0 || plan->slot_constant[mode->normal_slot]);
+           !mode_friction_varies(mode) && (mode->normal_slot < 0 || plan->slot_constant[mode->normal_slot]);
 }
 
 /* ---- the watchers of each kind of mode */

@@ -4,19 +4,36 @@
  */
 #include "dynamics/friction.h"
 #include "dynamics/modes.h"
+#include "dynamics/rest_system.h"
 #include "dynamics/tree.h"
 #include "dynamics/tree_driven.h"
 #include "events/watchers.h"
 #include "numeric/tolerances.h"
 
-/* The speed that the body of a pair that has never moved would have reached by its friction limit alone. */
-static double speed_to_come(const struct fbd_state *state, int pair)
+/* The acceleration of its body by the friction limit of a pair alone. */
+static double acceleration_at_limit(const struct fbd_state *state, int pair)
 {
     const struct fbd_model *model = state->model;
     const struct model_body *body = &model->bodies[model->plan.modes[pair].body];
     const struct instant at = state_instant(state);
     double limit = friction_at(model, pair, &at, state->slots).limit, inertia = coordinate_inertia(body, 0);
-    return inertia > 0 ? limit * fabs(state->t) / inertia : 0;
+    return inertia > 0 ? limit / inertia : 0;
+}
+
+/* The speed that the body of a pair that has never moved would have reached by its friction limit alone. */
+static double speed_to_come(const struct fbd_state *state, int pair)
+{
+    return acceleration_at_limit(state, pair) * fabs(state->t);
+}
+
+/* A band for the speed of a pair at its limit that other constraints block: its acceleration is what the shift of dependent
+ * rows leaves. It stays at its limit as long as they do. 0 for others. */
+static double blocked_band(const struct fbd_state *state, int pair, double v)
+{
+    const struct instant at = state_instant(state);
+    const double limit = acceleration_at_limit(state, pair), band = dependent_row * limit * fabs(state->t);
+    bool still = v <= band && fabs(tree_hold_acceleration(state, &at, pair)) <= dependent_row * limit;
+    return still && rest_is_open(state->model, &at) ? band : 0;
 }
 
 /* Twice the speed with which a slipping pair still moves against its slip direction although it accelerates
@@ -45,14 +62,15 @@ static void calm_beginning(struct watchers *watchers, const struct fbd_state *st
     if (state->slip[pair] == stick || !mode_is_friction(mode)) return;
     double along = slip_velocity(state->model, (int)pair, &at), v = fabs(along),
            *fast = &watchers->fast[pair];
-    watchers->quiet[pair] = short_of_side(state, (int)pair, slip_side(state->slip[pair]) * along);
+    watchers->quiet[pair] = fmax(short_of_side(state, (int)pair, slip_side(state->slip[pair]) * along),
+                                 blocked_band(state, (int)pair, v));
     *fast = fmax(*fast, v);
     if (mode->kind == mode_plane)
         watchers->quiet[pair] = soft_return * state->tree->couplings[mode->coupling].nu;
     if (mode->kind == mode_plane) return;
     if (v == 0) *fast = fmax(*fast, speed_to_come(state, (int)pair));
     if (v > 0 && (step > instant * fabs(state->t) || v > least * *fast)) return;
-    watchers->quiet[pair] = band * *fast;
+    watchers->quiet[pair] = fmax(watchers->quiet[pair], band * *fast);
 }
 
 /* A pair whose driven slip passes smoothly through zero has a speed of round-off for some time. */

@@ -109,8 +109,7 @@ static struct enclosure slip_stop(const struct enclosure_input *input, int pair)
 {
     const struct fbd_model *model = input->state->model;
     const struct mode *mode = &model->plan.modes[pair];
-    bool may_idle = mode->mu_s.expr || mode->mu_k.expr;
-    if (may_idle && stays_zero(input, &mode->mu_s) && stays_zero(input, &mode->mu_k))
+    if (mode_friction_varies(mode) && stays_zero(input, &mode->mu_s) && stays_zero(input, &mode->mu_k))
         return enclosure_point(HUGE_VAL);
     struct enclosure speed = enclose_formula(input, &mode->surface_speed);
     struct enclosure slip = enclosure_subtract(input->y[model->plan.n + mode->coordinate], speed);

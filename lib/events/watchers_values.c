@@ -262,7 +262,7 @@ static void set_flow(struct view *view, enum needs needs)
     double *slots = scratch.slots, *slots_along = scratch.slots_along, *dy = scratch.dy;
     state_rates(state->model, &view->at, slots, dy);
     if (plan->own > 0) user_state_rates(state->model, &view->at, dy + plan_own_place(plan));
-    view->flow = (struct direction){1, dy};
+    view->flow = (struct direction){.dt = 1, .dy = dy};
     if (state->model->names_places) {
         view->at = instant_extend(state->model, &view->at);
         view->flow = direction_extend(state->model, &view->at, &view->flow);

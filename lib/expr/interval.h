@@ -64,6 +64,12 @@ static inline struct interval interval_negate(struct interval a)
     return (struct interval){-a.high, -a.low};
 }
 
+/* All numbers within `radius` of the centre. */
+static inline struct interval interval_around(double centre, double radius)
+{
+    return interval_widen(centre - radius, centre + radius, 1);
+}
+
 static inline struct interval interval_add(struct interval a, struct interval b)
 {
     return interval_widen(a.low + b.low, a.high + b.high, 1);

@@ -70,7 +70,6 @@ struct writing {
     size_t count, room;
     size_t sense_end;  /* the bracket that ends a sense of names (scope.sense); 0: none */
     bool gap, foreign; /* before the next item: a blank; removed text other than blanks */
-    size_t gap_start;
 };
 
 /* Note an error at byte `offset` of the source and stop; returns false. */

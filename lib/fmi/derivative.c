@@ -71,14 +71,23 @@ static void multiply(const struct jacobian *jacobian, const struct plant *plant,
         }
 }
 
-static bool make(struct jacobian *jacobian, const struct plant *plant, const struct derivative_call *call)
+/* The present state; one that holds the inputs if one of them is a known. */
+static fbd_state *state_for(struct plant *plant, const struct derivative_call *call)
 {
-    size_t n = fbd_model_coordinate_count(plant->model), count = jacobian->known_count = call->known_count;
+    for (size_t k = 0; k < call->known_count; k++)
+        if (variable_of(plant, call->knowns[k]).kind == FBD_VARIABLE_INPUT) return plant_held_state(plant);
+    return plant->state;
+}
+
+static bool make(struct jacobian *jacobian, fbd_state *state, const struct derivative_call *call)
+{
+    size_t n = fbd_model_coordinate_count(fbd_state_model(state)),
+           count = jacobian->known_count = call->known_count;
     size_t *knowns = calloc(count + 1, sizeof *knowns);
     jacobian->by = calloc(n * count + 1, sizeof *jacobian->by);
     bool fine = knowns && jacobian->by;
     for (size_t k = 0; fine && k < count; k++) knowns[k] = call->knowns[k];
-    fine = fine && fbd_state_derivatives(plant->state, knowns, count, jacobian->by, NULL);
+    fine = fine && fbd_state_derivatives(state, knowns, count, jacobian->by, NULL);
     free(knowns);
     return fine;
 }
@@ -90,10 +99,11 @@ enum instance_status derivative_get(struct instance *instance, const struct deri
         instance->continuous ? "model exchange offers no derivatives here" : why_not(plant, call);
     if (why) return instance_fail(instance, call->function, why);
     if (!plant_update(plant)) return instance_fail(instance, call->function, plant->reason);
+    fbd_state *state = state_for(plant, call);
+    if (!state) return instance_fail(instance, call->function, plant->reason);
     struct jacobian jacobian = {0};
-    bool made = make(&jacobian, plant, call);
+    bool made = make(&jacobian, state, call);
     if (made) multiply(&jacobian, plant, call);
     free(jacobian.by);
-    return made ? instance_ok
-                : instance_fail(instance, call->function, "memory is out, or the input changes a memory");
+    return made ? instance_ok : instance_fail(instance, call->function, "out of memory");
 }

@@ -3,9 +3,8 @@
  * Directional derivatives: the instantaneous dependence of rates and accelerations on coordinates, rates and
  * inputs.
  *
- * Derivatives by coordinates and rates are those of the exact Jacobian of the equations of motion. For those
- * by an input, a model is compiled in which the input replaces the time and the time is a constant: the
- * derivative by time of its dual numbers is then that by the input.
+ * They are exact (fbd_state_derivatives). Those by an input are taken at a state that holds it (plant_held_state), so that no call
+ * but the first may compile a model.
  */
 #ifndef FBD_FMI_DERIVATIVE_H
 #define FBD_FMI_DERIVATIVE_H

@@ -53,12 +53,21 @@ static bool has_model(const struct plant *plant, bool holds_inputs)
     return plant->model && plant->holds_inputs == holds_inputs;
 }
 
+static void drop_held(struct plant *plant)
+{
+    fbd_state_free(plant->held_state);
+    fbd_model_free(plant->held);
+    plant->held_state = NULL;
+    plant->held = NULL;
+}
+
 static bool make_model(struct plant *plant)
 {
     const bool holds_inputs = !plant->base.of_file && has_inputs(plant);
     if (has_model(plant, holds_inputs)) return true;
     fbd_errors *errors = fbd_errors_new();
     if (!errors) return no_memory(plant);
+    drop_held(plant);
     fbd_model_free(plant->model);
     plant->model = plant_model(plant, plant->base.values, holds_inputs, errors);
     plant->holds_inputs = holds_inputs;
@@ -116,6 +125,7 @@ void plant_close(struct plant *plant)
 {
     if (!plant) return;
     drop_run(plant);
+    drop_held(plant);
     fbd_model_free(plant->model);
     extras_free(&plant->extras);
     fbd_model_free(plant->first);
@@ -198,7 +208,7 @@ static fbd_state *state_of_base(struct plant *plant)
     if (base->of_file) {
         fbd_state_set(state, "t", plant->start);
     } else if (!fbd_state_unpack(state, base->numbers, base->number_count)) {
-        fail(plant, "an input that switches `hysteresis`, or a coupling, on and off cannot be changed");
+        fail(plant, plant_no_held_inputs);
         fbd_state_free(state);
         return NULL;
     }
@@ -272,18 +282,17 @@ static bool values_differ(const struct plant *plant)
     return false;
 }
 
-/* The numbers of the present state as those of a model that holds its inputs, which come last. */
-static bool take_numbers(struct plant *plant)
+/* The inputs come last. */
+bool plant_pack(struct plant *plant, double **numbers, size_t *count)
 {
     const size_t packed = fbd_state_pack(plant->state, NULL, 0);
-    double *numbers = realloc(plant->base.numbers, (packed + plant->parameter_count + 1) * sizeof *numbers);
-    if (!numbers) return no_memory(plant);
-    fbd_state_pack(plant->state, numbers, packed);
-    plant->base.numbers = numbers;
-    plant->base.number_count = packed;
+    double *grown = realloc(*numbers, (packed + plant->parameter_count + 1) * sizeof *grown);
+    if (!grown) return no_memory(plant);
+    fbd_state_pack(plant->state, grown, packed);
+    *numbers = grown;
+    *count = packed;
     for (size_t i = 0; !plant->holds_inputs && i < plant->parameter_count; i++)
-        if (fbd_model_parameter(plant->first, i).input)
-            numbers[plant->base.number_count++] = plant->base.values[i];
+        if (fbd_model_parameter(plant->first, i).input) grown[(*count)++] = plant->base.values[i];
     return true;
 }
 
@@ -292,7 +301,7 @@ static bool take_state(struct plant *plant, double until)
 {
     if (plant->extras.works && !plant_pull(plant)) return false;
     for (size_t i = 0; i < plant_work_count(plant); i++) plant->base.works[i] = plant->pulls[i];
-    if (!take_numbers(plant)) return false;
+    if (!plant_pack(plant, &plant->base.numbers, &plant->base.number_count)) return false;
     plant->base.of_file = false;
     plant->base.until = until;
     return true;

@@ -16,6 +16,9 @@
 #include "fmi/extra.h"
 #include "fmi/package.h"
 
+/* The reason where a model that holds its inputs has other numbers. */
+extern const char plant_no_held_inputs[];
+
 enum plant_step {
     plant_arrived, /* at the target */
     plant_event,   /* at an event, before or at the target */
@@ -51,6 +54,9 @@ struct plant {
     struct plant_base base;
     fbd_model *model;  /* with the parameters of the base; NULL if not compiled yet */
     bool holds_inputs; /* its inputs belong to states; else they are constants, those of the base */
+    fbd_model *
+        held; /* if they are constants: a model of the same values whose states hold them, for derivatives ... */
+    fbd_state *held_state; /* ... and the state there; NULL: not needed yet */
     fbd_simulation *simulation;
     fbd_state *state;           /* at t */
     fbd_force_columns *columns; /* of the model; NULL: not needed yet */
@@ -92,6 +98,14 @@ fbd_options plant_options(const struct plant *plant);
  * (plant_files.c). */
 fbd_model *plant_model(const struct plant *plant, const double *values, bool holds_inputs,
                        fbd_errors *errors);
+
+/* The present state in a model whose states hold the inputs, after plant_update: that of the simulation, or of a model that
+ * is compiled once. NULL with a reason (plant_values.c). */
+fbd_state *plant_held_state(struct plant *plant);
+
+/* The numbers of the present state as those of a model whose states hold the inputs, in place of *numbers, which is NULL or
+ * on the heap. False with a reason. */
+bool plant_pack(struct plant *plant, double **numbers, size_t *count);
 
 /* Is the variable a parameter or an input, whose value is set? */
 bool plant_is_given(const struct plant *plant, size_t index);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Plant: values of variables; forces, energies and works.
+ * Plant: values of variables; forces, energies and works; states that hold the inputs.
  */
 #include <math.h>
+#include <stdlib.h>
 
 #include "fmi/plant.h"
 
@@ -64,4 +65,30 @@ bool plant_get(struct plant *plant, size_t index, double *value)
         *value = plant->pulls[plant->extras.list[index - shown].index];
     }
     return true;
+}
+
+/* ---- states that hold the inputs */
+
+const char plant_no_held_inputs[] =
+    "an input that switches `hysteresis`, or a coupling, on and off cannot be changed";
+
+static bool make_held(struct plant *plant)
+{
+    fbd_errors *errors = plant->held ? NULL : fbd_errors_new();
+    if (errors) plant->held = plant_model(plant, plant->base.values, true, errors);
+    fbd_errors_free(errors);
+    if (plant->held && !plant->held_state) plant->held_state = fbd_state_new(plant->held);
+    return plant->held_state || fail(plant, "out of memory");
+}
+
+fbd_state *plant_held_state(struct plant *plant)
+{
+    double *numbers = NULL;
+    size_t count;
+    if (plant->holds_inputs) return plant->state;
+    if (!make_held(plant) || !plant_pack(plant, &numbers, &count)) return NULL;
+    const bool fits = fbd_state_unpack(plant->held_state, numbers, count);
+    free(numbers);
+    if (!fits) fail(plant, plant_no_held_inputs);
+    return fits ? plant->held_state : NULL;
 }

@@ -147,6 +147,7 @@ enum holds_found holds_decide(struct hold_problem *problem)
                                     calloc(all + 1, sizeof *rows.rows),
                                     A,
                                     .basic = problem->basic,
+                                    .coarse = problem->coarse,
                                     .examine = true,
                                     .size = problem->size};
     enum holds_found found = holds_no_memory;

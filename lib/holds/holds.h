@@ -61,6 +61,8 @@ struct hold_problem {
     double *B; /* guide_count x count */
     bool
         basic; /* of forces that are indeterminate, decide those of a basis, as many as can be at their limits */
+    bool
+        coarse; /* resolve no more than the equations of motion, whose rows are shifted (constraint_solve.c) */
     double size; /* an acceleration (weighted, see holds_weight) relative to which others are round-off */
 };
 

@@ -1,23 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "holds/parts.h"
 
+#include "base/disjoint_sets.h"
+
 int parts_find(int count, bool (*meet)(const void *context, int i, int j), const void *context, int *part)
 {
     int parts = 0;
-    for (int i = 0; i < count; i++) part[i] = -1;
-    for (int first = 0; first < count; first++) {
-        if (part[first] >= 0) continue;
-        part[first] = parts;
-        for (bool grown = true; grown;) {
-            grown = false;
-            for (int i = 0; i < count; i++)
-                for (int j = 0; j < count && part[i] == parts; j++) {
-                    if (part[j] >= 0 || !meet(context, i, j)) continue;
-                    part[j] = parts;
-                    grown = true;
-                }
-        }
-        parts++;
-    }
+    for (int i = 0; i < count; i++) part[i] = i;
+    for (int i = 0; i < count; i++)
+        for (int j = i + 1; j < count; j++)
+            if (meet(context, i, j)) sets_join(part, i, j);
+    for (int i = 0; i < count; i++) part[i] = sets_first(part, i);
+    for (int i = 0; i < count; i++) part[i] = part[i] == i ? parts++ : part[part[i]];
     return parts;
 }

@@ -49,8 +49,9 @@ static void write_asset(struct text *text, const void *context)
 
 static void write_scripts(struct text *text, const void *context)
 {
-    static const char *const names[] = {"engine.js", "knobs.js", "editor.js", "share.js", "values.js",
-                                        "again.js",  "grips.js", "pull.js",   "hints.js", "bench.js"};
+    static const char *const names[] = {"engine.js", "knobs.js", "editor.js", "share.js",
+                                        "values.js", "check.js", "again.js",  "grips.js",
+                                        "pull.js",   "hints.js", "bench.js"};
     (void)context;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) write_asset(text, names[i]);
 }

@@ -303,15 +303,10 @@ bool companion_come_to_events(struct companion *companion, const struct ensemble
     return own->outcome != FBD_OUT_OF_MEMORY;
 }
 
-static bool alike(const struct run_event *a, const struct run_event *b)
-{
-    return a->kind == b->kind && a->body == b->body && a->load == b->load && a->watch == b->watch;
-}
-
 /* Index of the first event of `run` like this one, from `index` on; event_count when there is none. */
 static size_t next_alike(const struct ensemble *run, const struct run_event *event, size_t index)
 {
-    while (index < run->event_count && !alike(&run->events[index], event)) index++;
+    while (index < run->event_count && !events_are_alike(&run->events[index], event)) index++;
     return index;
 }
 

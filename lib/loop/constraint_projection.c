@@ -15,11 +15,6 @@
 #include "rest/balance.h"
 #include "rest/fit.h"
 
-static bool has_couplings(const struct run *run)
-{
-    return run->model->tree->coupling_count > 0;
-}
-
 /* The largest change from `from` to `to`, in tolerances relative to the largest value of each number so far. A body that
  * does not move along a coordinate has no such value: changes by the rounding of the mechanism are none. */
 static double tolerances_apart(const struct run *run, const double *from, const double *to)
@@ -51,7 +46,7 @@ static double close_at(struct run *run, double t, double *y)
 void project_within(struct run *run, double t, double *y)
 {
     const double far = 100;
-    if (!has_couplings(run) || run->flies) return; /* in flight no constraint acts */
+    if (!tree_has_couplings(run->model->tree) || run->flies) return; /* in flight no constraint acts */
     double moved = close_at(run, t, y);
     if (moved <= far) return;
     /* In a step past a singular position the dense output may be less accurate than the end of the step,
@@ -268,7 +263,7 @@ void projection_begin(struct run *run)
 
 void project_step(struct run *run)
 {
-    if (!has_couplings(run)) return;
+    if (!tree_has_couplings(run->model->tree)) return;
     run->projected = true;
     const struct closing closing = bring_back(run);
     const struct misfit misfit = closing.off, left = closing.left;

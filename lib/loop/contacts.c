@@ -16,11 +16,6 @@
 
 /* ---- memory */
 
-static bool has_meetings(const struct fbd_model *model)
-{
-    return model->tree && model->tree->meeting_count > 0;
-}
-
 static size_t most_strikers(const struct tree *tree)
 {
     size_t count = 0;
@@ -34,7 +29,7 @@ static bool meetings_init(struct contacts_work *work, const struct fbd_model *mo
 {
     const struct tree *tree = model->tree;
     size_t couplings = (size_t)tree->coupling_count, meetings = (size_t)tree->meeting_count;
-    if (!has_meetings(model)) return true;
+    if (!tree_has_contacts(model->tree)) return true;
     work->bounces = ARENA_ARRAY(memory, meetings, struct bounces);
     work->was_closed = ARENA_ARRAY(memory, 3 * couplings, bool);
     work->asleep = ARENA_ARRAY(memory, meetings, bool);
@@ -53,7 +48,7 @@ static bool meetings_init(struct contacts_work *work, const struct fbd_model *mo
 bool contacts_work_init(struct contacts_work *work, const struct fbd_model *model, struct arena *memory)
 {
     *work = (struct contacts_work){0};
-    size_t most = model->tree ? most_strikers(model->tree) : 0, n = (size_t)model->plan.n;
+    size_t most = most_strikers(model->tree), n = (size_t)model->plan.n;
     size_t pairs = model->plan.mode_count, rows = 2 * most, all = rows + pairs;
     if (most == 0) return true;
     work->strikers = ARENA_ARRAY(memory, most, struct striker);
@@ -79,17 +74,12 @@ bool contacts_work_init(struct contacts_work *work, const struct fbd_model *mode
 
 /* ---- touching features */
 
-static const struct tree *tree_of(const struct run *run)
-{
-    return run->model->tree;
-}
-
 static void set_feature(struct run *run, int coupling, int feature)
 {
     struct fbd_state *state = run->state;
     const struct instant at = state_instant(state);
     coupling_set_feature(run->model, &at, coupling, feature);
-    state->slip[tree_of(run)->couplings[coupling].surface] = feature == no_feature ? slip_plus : stick;
+    state->slip[run->model->tree->couplings[coupling].surface] = feature == no_feature ? slip_plus : stick;
 }
 
 /* A closed feature stays while it touches, within its side. */
@@ -114,7 +104,7 @@ static bool same_place(const struct run *run, int meeting, int a, int b, double 
 
 void contacts_find_touching(struct run *run, int index, double near)
 {
-    const struct meeting *meeting = &tree_of(run)->meetings[index];
+    const struct meeting *meeting = &run->model->tree->meetings[index];
     meeting_turn_sides(run->model, run->state->tree, index, near);
     int found[2], count = meeting_touching(run->model, run->state->tree, index, near, found);
     for (int k = 0; k < meeting->coupling_count; k++) {
@@ -150,7 +140,7 @@ static bool any_closes(const struct run *run, int count)
 bool contacts_part(const struct run *run, int i)
 {
     const struct striker *striker = &run->contacts.strikers[i];
-    const struct row *row = &run->state->tree->rows[tree_of(run)->couplings[striker->coupling].first_row];
+    const struct row *row = &run->state->tree->rows[run->model->tree->couplings[striker->coupling].first_row];
     return run->contacts.v[(ptrdiff_t)2 * i] > contacts_no_speed(run, row);
 }
 
@@ -182,10 +172,10 @@ static bool strike_alike(const struct run *run, int i, int j)
 {
     const struct contacts_work *work = &run->contacts;
     const struct striker *a = &work->strikers[i], *b = &work->strikers[j];
-    const struct coupling *coupling = &tree_of(run)->couplings[a->coupling];
+    const struct coupling *coupling = &run->model->tree->couplings[a->coupling];
     const double *v = work->v + (ptrdiff_t)2 * i, *w = work->v + (ptrdiff_t)2 * j;
     double same = contacts_no_speed(run, &run->state->tree->rows[coupling->first_row]);
-    return is_impact(run, j) && tree_of(run)->couplings[b->coupling].load == coupling->load &&
+    return is_impact(run, j) && run->model->tree->couplings[b->coupling].load == coupling->load &&
            fabs(a->v_n - b->v_n) <= same && fabs(a->v_t - b->v_t) <= same && fabs(v[0] - w[0]) <= same &&
            fabs(v[1] - w[1]) <= same;
 }
@@ -195,7 +185,7 @@ static void note_impact(struct run *run, int i, int count)
 {
     struct contacts_work *work = &run->contacts;
     const struct striker *striker = &work->strikers[i];
-    const struct coupling *coupling = &tree_of(run)->couplings[striker->coupling];
+    const struct coupling *coupling = &run->model->tree->couplings[striker->coupling];
     const double *v = work->v + (ptrdiff_t)2 * i, *own = work->P + (ptrdiff_t)2 * i;
     double p = 0, tau = 0, taken = 0;
     const double done = striker_taken(striker, v, own);
@@ -225,7 +215,7 @@ static void note_several(struct run *run, int count)
     for (int i = 1; i < count; i++)
         if (work->P[(ptrdiff_t)2 * i] > work->P[(ptrdiff_t)2 * most]) most = i;
     if (!work->several || count == 0) return;
-    const struct coupling *coupling = &tree_of(run)->couplings[work->strikers[most].coupling];
+    const struct coupling *coupling = &run->model->tree->couplings[work->strikers[most].coupling];
     struct run_event *event = log_event(run, FBD_EVENT_SEVERAL, coupling->end[0].body, coupling->load, -1);
     if (event) event->impact.several = true;
 }
@@ -246,7 +236,7 @@ static void let_slack(struct run *run, int pair)
 /* Update the contact of coupling `index` after an impact, by the velocities of impact constraint i. */
 static void open_or_close_contact(struct run *run, int index, int i, bool leaves, double v_t)
 {
-    const struct coupling *coupling = &tree_of(run)->couplings[index];
+    const struct coupling *coupling = &run->model->tree->couplings[index];
     if (leaves && run->contacts.strikers[i].contact) {
         set_feature(run, index, no_feature);
         return;
@@ -263,7 +253,7 @@ void contacts_open_or_close(struct run *run, int count, bool struck)
     const struct contacts_work *work = &run->contacts;
     for (int i = 0; i < count; i++) {
         const struct striker *striker = &work->strikers[i];
-        const struct coupling *coupling = &tree_of(run)->couplings[striker->coupling];
+        const struct coupling *coupling = &run->model->tree->couplings[striker->coupling];
         bool leaves = struck ? contacts_part(run, i) : striker->v_n > 0;
         double v_t = struck ? work->v[2 * i + 1] : striker->v_t;
         if (striker->rope || (leaves && !striker->contact)) {
@@ -328,7 +318,8 @@ static void unstick(struct run *run, double interval)
     for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
         const struct mode *mode = &model->plan.modes[pair];
         if (mode->kind == mode_plane) plane_unstick(run->state, pair);
-        bool row = mode->kind == mode_tangent && is_hit_indirectly(&tree_of(run)->couplings[mode->coupling]);
+        bool row =
+            mode->kind == mode_tangent && is_hit_indirectly(&run->model->tree->couplings[mode->coupling]);
         if (!(row || mode_is_joint_friction(mode)) || run->state->slip[pair] != stick) continue;
         double v = slip_velocity(model, pair, &at), before = row ? 0 : fastest[mode->coordinate];
         if (fabs(v) <= evaluation_rounding * before || (interval > 0 && fabs(v) * interval <= undecided_part))
@@ -344,7 +335,7 @@ static void find_touching(struct run *run)
 {
     const struct instant at = state_instant(run->state);
     tree_move(run->model, &at);
-    for (int i = 0; i < tree_of(run)->meeting_count; i++)
+    for (int i = 0; i < run->model->tree->meeting_count; i++)
         contacts_find_touching(run, i, contacts_reach(run, i));
     constraints_evaluate(run->model, &at, NULL);
 }
@@ -355,7 +346,7 @@ static bool refuse_low_step(struct run *run, int count)
 {
     for (int i = 0; i < count; i++) {
         const struct striker *striker = &run->contacts.strikers[i];
-        const struct coupling *coupling = &tree_of(run)->couplings[striker->coupling];
+        const struct coupling *coupling = &run->model->tree->couplings[striker->coupling];
         const struct vec n = run->state->tree->rows[coupling->first_row].ports[0].force;
         if (!striker->contact || !(striker->v_n < 0)) continue;
         double height = meeting_low_step(run->model, run->state->tree, coupling->meeting, -striker->v_n, n);
@@ -397,13 +388,14 @@ static bool look_at_contacts(struct run *run)
 void contacts_begin_events(struct run *run)
 {
     struct impact_record *of_couplings = run->contacts.of_couplings;
-    if (of_couplings) memset(of_couplings, 0, (size_t)tree_of(run)->coupling_count * sizeof *of_couplings);
+    if (of_couplings)
+        memset(of_couplings, 0, (size_t)run->model->tree->coupling_count * sizeof *of_couplings);
 }
 
 void run_contacts(struct run *run)
 {
     enum { most_rounds = 8 };
-    if (!has_meetings(run->model)) return;
+    if (!tree_has_contacts(run->model->tree)) return;
     for (int round = 0; round < most_rounds && run->end.outcome == FBD_GOING; round++)
         if (!look_at_contacts(run)) break;
 }
@@ -411,7 +403,7 @@ void run_contacts(struct run *run)
 bool run_start_contacts(struct run *run, struct lack *lack)
 {
     struct fbd_state *state = run->state;
-    if (!has_meetings(run->model)) return true;
+    if (!tree_has_contacts(run->model->tree)) return true;
     bool settled = modes_settle(state, NULL);
     if (contacts_are_deep(state)) {
         if (!start_fits(state, run->during, settled, "the start", lack)) return false;
@@ -426,7 +418,7 @@ bool run_start_contacts(struct run *run, struct lack *lack)
 
 void run_strike_closed(struct run *run)
 {
-    if (has_meetings(run->model))
+    if (tree_has_contacts(run->model->tree))
         find_touching(run);
     else
         impulse_look(run->state);
@@ -442,7 +434,7 @@ void run_strike_closed(struct run *run)
 
 static bool is_closed(const struct run *run, const struct fbd_state *state, int coupling)
 {
-    return state->slip[tree_of(run)->couplings[coupling].surface] == stick;
+    return state->slip[run->model->tree->couplings[coupling].surface] == stick;
 }
 
 /* Set separation speeds at round-off level to zero, for contacts that the modes opened after an impact
@@ -450,7 +442,7 @@ static bool is_closed(const struct run *run, const struct fbd_state *state, int 
  * body elsewhere at the next impact. */
 static void stop_what_opens(struct run *run)
 {
-    const struct tree *tree = tree_of(run);
+    const struct tree *tree = run->model->tree;
     struct fbd_state *state = run->state;
     bool *stops = run->contacts.moves, any = false;
     for (int i = 0; i < tree->coupling_count; i++) {
@@ -472,7 +464,7 @@ static void stop_what_opens(struct run *run)
 /* Log that a contact has closed or opened: once, for any number of corners. */
 static void note_change(struct run *run, int index)
 {
-    const struct coupling *couplings = tree_of(run)->couplings, *coupling = &couplings[index];
+    const struct coupling *couplings = run->model->tree->couplings, *coupling = &couplings[index];
     const bool *changed = run->contacts.moves;
     bool now = is_closed(run, run->state, index);
     for (int k = 0; k < index; k++)
@@ -482,11 +474,11 @@ static void note_change(struct run *run, int index)
 
 void run_release_contacts(struct run *run)
 {
-    if (!has_meetings(run->model)) return;
-    const struct coupling *couplings = tree_of(run)->couplings;
+    if (!tree_has_contacts(run->model->tree)) return;
+    const struct coupling *couplings = run->model->tree->couplings;
     bool *changed = run->contacts.moves;
     stop_what_opens(run);
-    for (int i = 0; i < tree_of(run)->coupling_count; i++) {
+    for (int i = 0; i < run->model->tree->coupling_count; i++) {
         changed[i] = false;
         if (couplings[i].kind != constraint_contact) continue;
         bool now = is_closed(run, run->state, i);

@@ -19,11 +19,6 @@
 #include "loop/contacts.h"
 #include "loop/run.h"
 
-static const struct tree *tree_of(const struct run *run)
-{
-    return run->model->tree;
-}
-
 /* Change of velocities in the short time, relative to the fastest slip. */
 static const double hint = 1e-7;
 
@@ -32,7 +27,7 @@ static void free_accelerations(const struct run *run, int i, double c[2])
 {
     const struct striker *striker = &run->contacts.strikers[i];
     const struct row *rows =
-        &run->contacts.trial->tree->rows[tree_of(run)->couplings[striker->coupling].first_row];
+        &run->contacts.trial->tree->rows[run->model->tree->couplings[striker->coupling].first_row];
     c[0] = striker->rope ? -rows[0].g.x2 : rows[0].g.x2;
     c[1] = striker->rubs ? rows[1].g.x2 : 0;
 }
@@ -43,11 +38,11 @@ static void let_go(struct run *run, int count)
     state_copy(trial, run->state);
     for (int i = 0; i < count; i++) {
         const struct striker *striker = &run->contacts.strikers[i];
-        const struct coupling *coupling = &tree_of(run)->couplings[striker->coupling];
+        const struct coupling *coupling = &run->model->tree->couplings[striker->coupling];
         trial->slip[striker->rope ? coupling->pair : coupling->surface] = slip_plus;
     }
     for (int k = 0; k < run->contacts.twin_count; k++)
-        trial->slip[tree_of(run)->couplings[run->contacts.twins[k].coupling].surface] = slip_plus;
+        trial->slip[run->model->tree->couplings[run->contacts.twins[k].coupling].surface] = slip_plus;
     state_evaluate(trial);
 }
 
@@ -97,7 +92,7 @@ static void note_jam(struct run *run, int i, bool jams)
 {
     const struct contacts_work *work = &run->contacts;
     const struct striker *striker = &work->strikers[i];
-    const struct coupling *coupling = &tree_of(run)->couplings[striker->coupling];
+    const struct coupling *coupling = &run->model->tree->couplings[striker->coupling];
     const double *v = work->v + (ptrdiff_t)2 * i, *P = work->P + (ptrdiff_t)2 * i;
     double taken = striker_taken(striker, v, P);
     run->impact_work[coupling->load] += taken;
@@ -156,11 +151,11 @@ bool run_jam(struct run *run)
     impulse_look(run->state);
     contacts_open_or_close(run, count, true);
     for (int i = 0; i < count; i++) {
-        int pair = tree_of(run)->couplings[work->strikers[i].coupling].pair;
+        int pair = run->model->tree->couplings[work->strikers[i].coupling].pair;
         if (pair >= 0) run->decided.slips[pair] = false;
     }
     for (int k = 0; k < work->twin_count; k++) {
-        int pair = tree_of(run)->couplings[work->twins[k].coupling].pair;
+        int pair = run->model->tree->couplings[work->twins[k].coupling].pair;
         if (pair >= 0) run->decided.slips[pair] = false;
     }
     return true;
@@ -169,7 +164,7 @@ bool run_jam(struct run *run)
 /* The contact that slips with friction and has the largest normal force; -1 without one. */
 static int pressed_most(const struct run *run, const struct fbd_state *state)
 {
-    const struct tree *tree = tree_of(run);
+    const struct tree *tree = run->model->tree;
     const struct instant at = state_instant(state);
     double most = -1;
     int found = -1;
@@ -197,14 +192,9 @@ static bool has_turned(const struct fbd_state *state)
     return negative % 2 == 1;
 }
 
-static bool has_meetings(const struct run *run)
-{
-    return run->model->tree && run->model->tree->meeting_count > 0;
-}
-
 void run_note_sign(struct run *run)
 {
-    if (!has_meetings(run)) return;
+    if (!tree_has_contacts(run->model->tree)) return;
     run->contacts.turned = false;
     if (pressed_most(run, run->during) < 0) return;
     state_evaluate_unshared(run->during);
@@ -214,7 +204,9 @@ void run_note_sign(struct run *run)
 void run_check_jam(struct run *run, bool evaluated)
 {
     const struct fbd_model *model = run->model;
-    if (!has_meetings(run) || run->end.outcome != FBD_GOING || pressed_most(run, run->state) < 0) return;
+    if (!tree_has_contacts(run->model->tree) || run->end.outcome != FBD_GOING ||
+        pressed_most(run, run->state) < 0)
+        return;
     if (!evaluated) state_evaluate_unshared(run->state);
     if (has_turned(run->state) == run->contacts.turned) return;
     int worst = pressed_most(run, run->state);

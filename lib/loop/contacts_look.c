@@ -11,16 +11,6 @@
 #include "loop/run.h"
 #include "numeric/tolerances.h"
 
-static bool has_meetings(const struct fbd_model *model)
-{
-    return model->tree && model->tree->meeting_count > 0;
-}
-
-static const struct tree *tree_of(const struct run *run)
-{
-    return run->model->tree;
-}
-
 /* Angular speed of a shape: of its link, unless it is a circle about the link's origin, and of the links that
  * carry it. */
 static double turning(const struct run *run, const struct contact_shape *shape)
@@ -28,7 +18,7 @@ static double turning(const struct run *run, const struct contact_shape *shape)
     const struct tree_state *links = run->contacts.trial->tree->links;
     bool round = shape->kind == contact_disc && shape->center.x == 0 && shape->center.y == 0;
     double turn = round ? 0 : fabs(links[shape->link].omega);
-    for (int i = tree_of(run)->links[shape->link].parent; i > 0; i = tree_of(run)->links[i].parent)
+    for (int i = run->model->tree->links[shape->link].parent; i > 0; i = run->model->tree->links[i].parent)
         turn = fmax(turn, fabs(links[i].omega));
     return turn;
 }
@@ -37,7 +27,7 @@ static double turning(const struct run *run, const struct contact_shape *shape)
  * their size. At the place of `trial`. */
 static double phase_rate(const struct run *run, int index, double speed)
 {
-    const struct contact_shape *shapes = tree_of(run)->meetings[index].shape;
+    const struct contact_shape *shapes = run->model->tree->meetings[index].shape;
     const double size = shapes[0].radius + shapes[1].radius;
     const double turn = fmax(turning(run, &shapes[0]), turning(run, &shapes[1])); /* both may turn */
     const bool flat = shapes[1].kind == contact_line; /* the gap of a line is linear in position */
@@ -47,8 +37,8 @@ static double phase_rate(const struct run *run, int index, double speed)
 double run_contact_radians(const struct run *run, double span)
 {
     double most = 0;
-    if (!has_meetings(run->model)) return 0;
-    for (int i = 0; i < tree_of(run)->meeting_count; i++)
+    if (!tree_has_contacts(run->model->tree)) return 0;
+    for (int i = 0; i < run->model->tree->meeting_count; i++)
         if (!run->contacts.asleep[i]) most = fmax(most, run->contacts.phase_rate[i]);
     return most * span;
 }
@@ -66,23 +56,23 @@ void run_wake_contacts(struct run *run, double end)
     const double speeds = 2;
     struct contacts_work *work = &run->contacts;
     struct fbd_state *trial = work->trial;
-    if (!has_meetings(run->model)) return;
+    if (!tree_has_contacts(run->model->tree)) return;
     double span = end - run->step.from;
     state_copy(trial, run->during);
     place(trial);
-    for (int i = 0; i < tree_of(run)->meeting_count; i++) {
+    for (int i = 0; i < run->model->tree->meeting_count; i++) {
         struct distance at = meeting_distance(run->model, trial->tree, i);
-        work->asleep[i] =
-            meeting_is_gone(trial->tree, &tree_of(run)->meetings[i]) || at.apart > speeds * span * at.speed;
+        work->asleep[i] = meeting_is_gone(trial->tree, &run->model->tree->meetings[i]) ||
+                          at.apart > speeds * span * at.speed;
         work->phase_rate[i] = phase_rate(run, i, at.speed);
     }
     memcpy(trial->y, run->work.y, plan_size(&run->model->plan) * sizeof *trial->y);
     trial->t = end;
     place(trial);
-    for (int i = 0; i < tree_of(run)->meeting_count; i++) {
+    for (int i = 0; i < run->model->tree->meeting_count; i++) {
         struct distance at = meeting_distance(run->model, trial->tree, i);
-        work->asleep[i] &=
-            meeting_is_gone(trial->tree, &tree_of(run)->meetings[i]) || at.apart > speeds * span * at.speed;
+        work->asleep[i] &= meeting_is_gone(trial->tree, &run->model->tree->meetings[i]) ||
+                           at.apart > speeds * span * at.speed;
         work->phase_rate[i] = fmax(work->phase_rate[i], phase_rate(run, i, at.speed));
     }
 }
@@ -101,7 +91,7 @@ struct look {
 
 static struct look look_at(struct run *run, int index, int probe, double t)
 {
-    const struct meeting *meeting = &tree_of(run)->meetings[index];
+    const struct meeting *meeting = &run->model->tree->meetings[index];
     struct fbd_state *trial = run->contacts.trial;
     if (trial->t != t) {
         switcher_dense(run->stepper, time_dd_at(t), trial->y);
@@ -188,7 +178,7 @@ static double until_bend(struct run *run, int index, int probe, double from, dou
 /* The number of gaps with kinks or sharp curvature as one shape passes the other. */
 static int bending_probes(const struct run *run, int index)
 {
-    const struct meeting *meeting = &tree_of(run)->meetings[index];
+    const struct meeting *meeting = &run->model->tree->meetings[index];
     bool smooth = meeting->stop != 0 || meeting->shape[1].kind == contact_line;
     if (smooth || run->contacts.asleep[index]) return 0;
     return meeting->thin ? meeting->probes : 1;
@@ -196,7 +186,7 @@ static int bending_probes(const struct run *run, int index)
 
 double run_contact_bend(struct run *run, double from, double to)
 {
-    for (int i = 0; has_meetings(run->model) && i < tree_of(run)->meeting_count; i++)
+    for (int i = 0; tree_has_contacts(run->model->tree) && i < run->model->tree->meeting_count; i++)
         for (int probe = 0; probe < bending_probes(run, i); probe++) to = until_bend(run, i, probe, from, to);
     return to;
 }
@@ -206,7 +196,7 @@ static bool parts(const struct run *run, const struct instant *at, int index)
 {
     const double rounding = solved_rounding,
                  of_all = negligible_part; /* relative to the present speeds, and to the largest of the run */
-    const struct meeting *meeting = &tree_of(run)->meetings[index];
+    const struct meeting *meeting = &run->model->tree->meetings[index];
     double least = HUGE_VAL, speed = meeting_speed(run->state->tree, meeting);
     for (int probe = 0; probe < meeting->probes; probe++) {
         struct gap gap = meeting_probe(run->model, at, index, probe);
@@ -224,7 +214,7 @@ void contacts_note_depths(struct run *run)
 {
     const struct fbd_state *state = run->state;
     const struct instant at = state_instant(run->state);
-    for (int i = 0; i < tree_of(run)->meeting_count; i++) {
+    for (int i = 0; i < run->model->tree->meeting_count; i++) {
         double deep = meeting_depth(run->model, &at, i), near = meeting_near(run->model, state->tree, i);
         double reach = reach_of(near, deep);
         int features[2];
@@ -243,7 +233,7 @@ static bool projected_in(struct run *run)
     struct contacts_work *work = &run->contacts;
     const struct instant at = state_instant(run->state);
     bool in = false;
-    for (int i = 0; i < tree_of(run)->meeting_count; i++) {
+    for (int i = 0; i < run->model->tree->meeting_count; i++) {
         if (work->asleep[i]) continue;
         double deep = meeting_depth(run->model, &at, i);
         if (deep <= work->deep[i] + meeting_rounding(run->model, run->state->tree, i)) continue;
@@ -271,7 +261,7 @@ static int count_touching(const struct run *run, int index)
 
 static int count_closed(const struct run *run, int index)
 {
-    const struct meeting *meeting = &tree_of(run)->meetings[index];
+    const struct meeting *meeting = &run->model->tree->meetings[index];
     const struct instant at = state_instant(run->state);
     int closed = 0;
     for (int k = 0; k < meeting->coupling_count; k++)
@@ -285,8 +275,8 @@ static bool come_to_touch(struct run *run)
 {
     struct contacts_work *work = &run->contacts;
     bool come = false;
-    for (int i = 0; i < tree_of(run)->meeting_count; i++) {
-        if (work->asleep[i] || tree_of(run)->meetings[i].stop != 0) continue;
+    for (int i = 0; i < run->model->tree->meeting_count; i++) {
+        if (work->asleep[i] || run->model->tree->meetings[i].stop != 0) continue;
         int touching = count_touching(run, i);
         come |= touching > work->touched[i] && touching > count_closed(run, i);
         work->touched[i] = touching;
@@ -296,15 +286,15 @@ static bool come_to_touch(struct run *run)
 
 void contacts_note_touching(struct run *run)
 {
-    for (int i = 0; i < tree_of(run)->meeting_count; i++)
-        run->contacts.touched[i] = tree_of(run)->meetings[i].stop != 0 ? 0 : count_touching(run, i);
+    for (int i = 0; i < run->model->tree->meeting_count; i++)
+        run->contacts.touched[i] = run->model->tree->meetings[i].stop != 0 ? 0 : count_touching(run, i);
 }
 
 bool run_overlaps(struct run *run, double end)
 {
     struct fbd_state *trial = run->contacts.trial;
     double depth;
-    if (!has_meetings(run->model) || run->end.outcome != FBD_GOING) return false;
+    if (!tree_has_contacts(run->model->tree) || run->end.outcome != FBD_GOING) return false;
     state_copy(trial, run->during);
     memcpy(trial->y, run->work.y, plan_size(&run->model->plan) * sizeof *trial->y);
     trial->t = end;
@@ -314,7 +304,7 @@ bool run_overlaps(struct run *run, double end)
 void run_check_overlap(struct run *run)
 {
     double depth;
-    if (!has_meetings(run->model) || run->end.outcome != FBD_GOING) return;
+    if (!tree_has_contacts(run->model->tree) || run->end.outcome != FBD_GOING) return;
     int meeting = contacts_overlap(run->state, &depth);
     if (meeting < 0) {
         run->contacts.due |= come_to_touch(run) || (run->projected && projected_in(run));
@@ -326,8 +316,9 @@ void run_check_overlap(struct run *run)
              "at t = %.9g the shapes of the contact `%s` are in each other by %.3g %s: the instant at which "
              "they met was "
              "missed. Try a smaller tolerance or step",
-             run_time(run), run->model->scene->constraints[tree_of(run)->meetings[meeting].constraint].name,
-             depth, unit);
+             run_time(run),
+             run->model->scene->constraints[run->model->tree->meetings[meeting].constraint].name, depth,
+             unit);
 }
 
 double contacts_reach(const struct run *run, int index)

@@ -7,11 +7,6 @@
 #include "loop/run.h"
 #include "numeric/tolerances.h"
 
-static const struct tree *tree_of(const struct run *run)
-{
-    return run->model->tree;
-}
-
 /* The scale of a row's velocity: the speeds of its points. */
 static double speed_at(const struct run *run, const struct row *row)
 {
@@ -31,14 +26,14 @@ double contacts_no_speed(const struct run *run, const struct row *row)
 
 static double normal_rate(const struct run *run, const struct striker *striker)
 {
-    double rate = run->state->tree->rows[tree_of(run)->couplings[striker->coupling].first_row].g.x1;
+    double rate = run->state->tree->rows[run->model->tree->couplings[striker->coupling].first_row].g.x1;
     return striker->rope ? -rate : rate;
 }
 
 /* Does coupling i take part in impacts in its present mode? */
 static bool is_striker(const struct run *run, int i)
 {
-    const struct coupling *coupling = &tree_of(run)->couplings[i];
+    const struct coupling *coupling = &run->model->tree->couplings[i];
     if (coupling->kind == constraint_contact) return run->state->tree->couplings[i].feature != no_feature;
     if (coupling->kind == constraint_rope) return run->state->slip[coupling->pair] == stick;
     return coupling_takes_impulses(coupling) && run->state->slip[coupling->surface] == stick;
@@ -57,13 +52,14 @@ static const struct port *port_on(const struct row *row, int link)
  * tolerance, directions to the digits of a file. */
 static bool coincide(const struct run *run, int a, int b)
 {
-    const struct coupling *couplings = tree_of(run)->couplings;
+    const struct coupling *couplings = run->model->tree->couplings;
     const struct tree_work *work = run->state->tree;
     int first = couplings[a].end[0].link, second = couplings[a].end[1].link, index = couplings[a].meeting;
     bool same = couplings[b].end[0].link == first && couplings[b].end[1].link == second;
     bool swapped = couplings[b].end[0].link == second && couplings[b].end[1].link == first;
     if (!same && !swapped) return false;
-    if (tree_of(run)->meetings[index].stop != 0 || tree_of(run)->meetings[couplings[b].meeting].stop != 0)
+    if (run->model->tree->meetings[index].stop != 0 ||
+        run->model->tree->meetings[couplings[b].meeting].stop != 0)
         return false;
     int link = first > 0 ? first : second;
     const struct port *p = port_on(&work->rows[couplings[a].first_row], link),
@@ -86,7 +82,7 @@ static int coinciding(const struct run *run, int i, int count)
 
 static void set_striker(struct run *run, int i, struct striker *striker)
 {
-    const struct coupling *coupling = &tree_of(run)->couplings[i];
+    const struct coupling *coupling = &run->model->tree->couplings[i];
     bool rope = coupling->kind == constraint_rope, contact = coupling->meeting >= 0;
     *striker = (struct striker){.coupling = i,
                                 .contact = contact,
@@ -104,7 +100,8 @@ static void set_striker(struct run *run, int i, struct striker *striker)
 static void drop_no_speeds(const struct run *run, struct striker *striker)
 {
     double least =
-        contacts_no_speed(run, &run->state->tree->rows[tree_of(run)->couplings[striker->coupling].first_row]);
+        contacts_no_speed(run,
+                          &run->state->tree->rows[run->model->tree->couplings[striker->coupling].first_row]);
     if (fabs(striker->v_n) <= least) striker->v_n = 0;
     if (fabs(striker->v_t) <= least) striker->v_t = 0;
     striker->rubs |= striker->v_t != 0; /* a roll without a limit that lands sticks from then on */
@@ -115,9 +112,9 @@ int contacts_find_strikers(struct run *run)
     struct contacts_work *work = &run->contacts;
     int count = 0;
     work->twin_count = 0;
-    for (int i = 0; i < tree_of(run)->coupling_count; i++) {
+    for (int i = 0; i < run->model->tree->coupling_count; i++) {
         if (!is_striker(run, i)) continue;
-        int point = tree_of(run)->couplings[i].meeting >= 0 ? coinciding(run, i, count) : -1;
+        int point = run->model->tree->couplings[i].meeting >= 0 ? coinciding(run, i, count) : -1;
         if (point >= 0)
             work->twins[work->twin_count++] = (struct striker_twin){i, point};
         else

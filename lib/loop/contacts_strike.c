@@ -16,15 +16,11 @@
 #include "loop/run.h"
 #include "numeric/tolerances.h"
 
-static const struct tree *tree_of(const struct run *run)
-{
-    return run->model->tree;
-}
-
 double contacts_restitution(struct run *run, int meeting, double approach)
 {
     const struct fbd_model *model = run->model;
-    const struct constraint *source = &model->scene->constraints[tree_of(run)->meetings[meeting].constraint];
+    const struct constraint *source =
+        &model->scene->constraints[run->model->tree->meetings[meeting].constraint];
     const struct expr *expr = source->contact.restitution.expr;
     if (!expr) return source->contact.e;
     size_t n = plan_size(&model->plan);
@@ -43,7 +39,7 @@ static bool set_point(struct run *run, int i)
     const double no_limit = 1e6; /* stops the slip of rolling without a limit */
     struct contacts_work *work = &run->contacts;
     const struct striker *striker = &work->strikers[i];
-    const struct coupling *coupling = &tree_of(run)->couplings[striker->coupling];
+    const struct coupling *coupling = &run->model->tree->couplings[striker->coupling];
     struct instant at = state_instant(run->state);
     work->points[i] = (struct impacts_point){.law = impact_stronge};
     if (striker->rope) return true;
@@ -128,7 +124,7 @@ static void set_answers(struct run *run, int count)
     struct contacts_work *work = &run->contacts;
     int rows = 2 * count;
     for (int i = 0; i < count; i++) {
-        int first = tree_of(run)->couplings[work->strikers[i].coupling].first_row;
+        int first = run->model->tree->couplings[work->strikers[i].coupling].first_row;
         int *row = work->rows + (ptrdiff_t)2 * i;
         row[0] = first;
         row[1] = work->strikers[i].rubs ? first + 1 : first;
@@ -170,7 +166,7 @@ static double impulse_of(const struct contacts_work *work, int i)
 /* The work of a unit impulse of a row on the bodies carried by link `driven`, by its prescribed motion. */
 static double carried_work(const struct run *run, const struct row *row, int driven)
 {
-    const struct tree *tree = tree_of(run);
+    const struct tree *tree = run->model->tree;
     const struct tree_link *link = &tree->links[driven];
     const struct tree_state *links = run->state->tree->links, *own = &links[driven];
     double v = run->state->y[run->model->plan.n + link->coordinate], sum = 0;
@@ -240,7 +236,7 @@ static void note_drives(struct run *run, int count, double change, double rubbed
 /* The division of impulses around a drum (capstan) is not modelled. */
 static void refuse_rubbing(struct run *run)
 {
-    const struct tree *tree = tree_of(run);
+    const struct tree *tree = run->model->tree;
     for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
         bool closed = coupling->surface < 0 || run->state->slip[coupling->surface] == stick;
@@ -269,7 +265,7 @@ static double given_to(const struct run *run, int count, const struct tree_link 
  * they would drift. */
 static void drop_rounding(struct run *run, int count)
 {
-    const struct tree *tree = tree_of(run);
+    const struct tree *tree = run->model->tree;
     double given = 0, *rates = run->state->y + run->model->plan.n;
     for (int k = 1; k < tree->joined; k++) given = fmax(given, given_to(run, count, &tree->links[k]));
     double least = round_off((double)count * count, given);
@@ -287,7 +283,7 @@ static void drop_rounding(struct run *run, int count)
 static void stop_rounding(struct run *run, int count)
 {
     const struct fbd_model *model = run->model;
-    const struct tree *tree = tree_of(run);
+    const struct tree *tree = run->model->tree;
     const struct instant at = state_instant(run->state);
     for (int k = 1; k < tree->joined; k++) {
         const struct tree_link *link = &tree->links[k];
@@ -424,7 +420,7 @@ bool contacts_solve_impact(struct run *run, int count)
 void contacts_hold_speeds(struct run *run, int count)
 {
     const struct instant at = state_instant(run->state);
-    if (tree_rows_are_idle(tree_of(run), &at)) return;
+    if (tree_rows_are_idle(run->model->tree, &at)) return;
     state_project_velocity(run->state, false);
     drop_rounding(run, count);
     stop_rounding(run, count);

@@ -305,7 +305,7 @@ static void watch_passing(const struct end *end, struct time_dd *t)
 void run_watch_slots(struct run *run, struct time_dd *t)
 {
     const struct tree *tree = run->model->tree;
-    for (int i = 0; tree && i < tree->coupling_count; i++) {
+    for (int i = 0; i < tree->coupling_count; i++) {
         if (!slot_is_open(&tree->couplings[i], run->during->slip) ||
             coupling_is_gone(run->during->tree, &tree->couplings[i]))
             continue;
@@ -366,7 +366,7 @@ static double until_near(struct run *run, int index, double from, double to)
 double run_flights(struct run *run, double from, double to)
 {
     const struct tree *tree = run->model->tree;
-    for (int i = 0; tree && i < tree->coupling_count; i++) {
+    for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
         if (coupling_is_gone(run->during->tree, coupling)) continue;
         if (slot_is_open(coupling, run->during->slip) || is_slack(run->during, coupling))
@@ -380,14 +380,14 @@ double run_flights(struct run *run, double from, double to)
 void run_watch_ends(struct run *run, struct time_dd *t)
 {
     const struct tree *tree = run->model->tree;
-    for (int i = 0; tree && i < tree->coupling_count && run->end.outcome == FBD_GOING; i++)
+    for (int i = 0; i < tree->coupling_count && run->end.outcome == FBD_GOING; i++)
         if (!coupling_is_gone(run->during->tree, &tree->couplings[i])) watch_coupling(run, i, t);
 }
 
 void run_check_ends(struct run *run)
 {
     const struct tree *tree = run->model->tree;
-    for (int i = 0; tree && i < tree->coupling_count && run->end.outcome == FBD_GOING; i++) {
+    for (int i = 0; i < tree->coupling_count && run->end.outcome == FBD_GOING; i++) {
         if (tree->couplings[i].kind != constraint_rope || !is_taut(run->state, &tree->couplings[i])) continue;
         for (int k = 0; k < 2; k++) {
             struct end end = {run, i, k, false};

@@ -66,7 +66,7 @@ void energy_guard_events(struct run *run, double before)
     run->energy.jumps += after - kinetic_at(run, run->state->t, old, run->during->branch) - done;
 }
 
-static bool has_potentials(const struct fbd_model *model)
+bool energy_has_potentials(const struct fbd_model *model)
 {
     for (size_t i = 0; i < model->load_count; i++)
         if (model->loads[i].potential_kind == potential_none || model->loads[i].source->lifetime.number > 0)
@@ -107,7 +107,7 @@ struct energy_balance run_energy_balance(struct run *run)
     struct energy_balance balance = {guard->jumps, HUGE_VAL};
     double terms = 0, moving = in_motion(run);
     if (run->options.step > 0) return balance;
-    if (has_potentials(run->model)) {
+    if (energy_has_potentials(run->model)) {
         double end = kinetic_at(run, run->state->t, run->state->y, run->state->branch),
                start = kinetic_at(run, guard->t, guard->y, run->state->branch);
         moving = fmax(moving, fmax(start, end));

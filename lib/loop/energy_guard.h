@@ -16,6 +16,7 @@
 #include <stdbool.h>
 
 struct ensemble;
+struct fbd_model;
 struct run;
 
 struct energy_guard {
@@ -37,6 +38,9 @@ double energy_of_impacts(const struct run *run);
 
 /* The potential energy at run->state, of the forces that have a potential. */
 double energy_of_place(const struct run *run);
+
+/* Do the works of all loads follow from potentials that are there all the time? */
+bool energy_has_potentials(const struct fbd_model *model);
 
 /* Called after events; `before` is the work of impacts before them. */
 void energy_guard_events(struct run *run, double before);

@@ -63,7 +63,6 @@ struct ensemble {
     struct group *groups;
     size_t *queue; /* heap of islands by the ends of their last steps */
     size_t queued;
-    bool lazy;        /* advanced by ensemble_go: quiet islands are not queued */
     bool started;     /* the queue is filled */
     bool cut;         /* an interruption is requested */
     bool stepping;    /* an island is making a step */

@@ -13,6 +13,7 @@
 #include "dynamics/tree_system.h"
 #include "dynamics/user_states.h"
 #include "loop/run.h"
+#include "model/coupling.h"
 #include "numeric/tolerances.h"
 
 /* The acceleration of coordinate i (or the rate of a user state), or its change within the time tau where
@@ -34,7 +35,7 @@ static bool starts_by_rounding(const struct run *run, size_t i, double a)
 static void vary(struct run *run, const struct instant *at, const double *dy, double *along)
 {
     struct scratch scratch = state_scratch(run->state);
-    const struct direction direction = {0, dy};
+    const struct direction direction = {.dy = dy};
     accelerations_along(run->model, at, &direction, scratch.slots, scratch.slots_along, along);
     if (run->model->plan.own > 0)
         user_state_rates_along(run->model, at, &direction, along + run->model->plan.n);
@@ -176,9 +177,10 @@ static struct motion_size largest_motion(const struct run *run, const double *ti
  * error is that. */
 static double unseen_place(const struct run *run, const struct model_body *body, int k)
 {
+    const struct tree *tree = run->model->tree;
     double reach = 0;
-    for (int i = 1; i < run->model->tree->joined; i++)
-        reach = fmax(reach, vec_norm(run->state->tree->links[i].p));
+    for (int i = 1; i < tree->joined; i++) reach = fmax(reach, vec_norm(run->state->tree->links[i].p));
+    for (int i = 0; i < tree->coupling_count; i++) reach = fmax(reach, coupling_extent(&tree->couplings[i]));
     return round_off(1, 1) / run->options.tolerance * (coordinate_is_angle(body, k) ? 1 : reach);
 }
 
@@ -207,10 +209,11 @@ static void set_floors(struct run *run, double tau, const double *times)
             run->roundoff.nothing[rate] = fmax(run->roundoff.nothing[rate], speed);
             if (run->state->y[position] == 0) place = fmax(place, own.place);
             if (run->state->y[rate] == 0) speed = fmax(speed, own.rate);
-            if (tree && tree->row_count > 0 && tree->meeting_count == 0 && place == 0 && speed == 0 &&
-                run->state->y[position] == 0) {
-                place = unseen_place(run, body, k); /* held by a coupling, without a load yet */
-                speed = place / tau;
+            if (tree && tree->row_count > 0 && tree->meeting_count == 0) {
+                /* Couplings hold coordinates to this accuracy; a load may begin from zero. */
+                double held = unseen_place(run, body, k);
+                if (run->state->y[position] == 0) place = fmax(place, held);
+                if (run->state->y[rate] == 0) speed = fmax(speed, held / tau);
             }
             switcher_set_floor(run->stepper, position, place);
             switcher_set_floor(run->stepper, rate, speed);

@@ -38,7 +38,7 @@ static const char *lack_of(const struct tree *tree, int index)
 bool exchange_lack(const struct fbd_model *model, struct text *words)
 {
     const struct tree *tree = model->tree;
-    for (int i = 0; tree && i < tree->coupling_count; i++) {
+    for (int i = 0; i < tree->coupling_count; i++) {
         const char *form = lack_of(tree, i);
         if (!form) continue;
         text_printf(words, form, tree->couplings[i].name);
@@ -53,7 +53,7 @@ bool exchange_lack(const struct fbd_model *model, struct text *words)
 static void wake_contacts(struct run *run)
 {
     const struct tree *tree = run->model->tree;
-    for (int i = 0; tree && i < tree->meeting_count; i++)
+    for (int i = 0; i < tree->meeting_count; i++)
         run->contacts.asleep[i] = meeting_is_gone(run->state->tree, &tree->meetings[i]);
 }
 
@@ -170,7 +170,7 @@ static bool project(const struct exchange *exchange)
     const double least = negligible_sum; /* rounding in a mechanism of many rows, relative to its size */
     const double tolerance = fmax(run->options.tolerance, least);
     const struct tree *tree = run->model->tree;
-    if (!tree || tree->coupling_count == 0) return false;
+    if (!tree_has_couplings(tree)) return false;
     const struct closing closing = state_close(run->state);
     constraints_follow(run->model, run->state->tree);
     run->stale = true;

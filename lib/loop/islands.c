@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/block_alloc.h"
+#include "base/disjoint_sets.h"
 
 /* The kinds of items in a selection. */
 enum kind { of_body, of_event, of_coupling, of_constraint, of_absolute, of_branch, of_mode, of_load, kinds };
@@ -15,22 +16,6 @@ struct items {
 };
 
 /* ---- connected components by union-find: parent[b] is a body of the same island, finally the first one */
-
-static int find(int *parent, int b)
-{
-    while (parent[b] != b) b = parent[b] = parent[parent[b]];
-    return b;
-}
-
-/* The earlier root remains, so that an island is identified by its first body. */
-static void join(int *parent, int a, int b)
-{
-    int root_a = find(parent, a), root_b = find(parent, b);
-    if (root_a < root_b)
-        parent[root_b] = root_a;
-    else
-        parent[root_a] = root_b;
-}
 
 /* The body of a slot: of a coordinate, a rate or a world position. */
 static int body_of_slot(const struct scene *scene, int slot)
@@ -50,7 +35,7 @@ static int join_read(const struct scene *scene, int *parent, const struct expr *
     size_t count = expr ? expr_variables(expr, &slots) : 0;
     for (size_t i = 0; i < count; i++) {
         int read = body_of_slot(scene, slots[i]);
-        if (body >= 0) join(parent, body, read);
+        if (body >= 0) sets_join(parent, body, read);
         body = read;
     }
     return body;
@@ -71,7 +56,7 @@ static int join_constraint(const struct scene *scene, int *parent, const struct 
     for (int end = 0; end < constraint->end_count; end++)
         if (constraint->body[end] != ground_body) body = constraint->body[end];
     for (int end = 0; end < constraint->end_count; end++)
-        if (constraint->body[end] != ground_body) join(parent, body, constraint->body[end]);
+        if (constraint->body[end] != ground_body) sets_join(parent, body, constraint->body[end]);
     join_read(scene, parent, constraint->mu_s.expr, body);
     join_read(scene, parent, constraint->mu_k.expr, body);
     return body;
@@ -83,7 +68,7 @@ static int join_end(const struct fbd_model *model, int *parent, const struct wat
 {
     const int body = watch->load >= 0 ? model->loads[watch->load].body
                                       : constraint_first_body(model->tree->couplings[watch->coupling].source);
-    if (read >= 0) join(parent, body, read);
+    if (read >= 0) sets_join(parent, body, read);
     return body;
 }
 
@@ -113,16 +98,16 @@ static void join_all(const struct fbd_model *model, int *parent, struct items *i
     for (size_t b = 0; b < scene->body_count; b++) {
         const struct body *body = &scene->bodies[b];
         if (body->motion.parent != ground_body)
-            join(parent, (int)b, body->motion.parent);
+            sets_join(parent, (int)b, body->motion.parent);
         else if (body->count == 0) /* a fixed body has no equations of motion */
-            join(parent, (int)b, 0);
+            sets_join(parent, (int)b, 0);
         join_read(scene, parent, body->mass.expr, (int)b);
         for (size_t i = 0; scene->body_count > 1 && i < body->load_count; i++)
             join_load(scene, parent, &body->loads[i], (int)b);
     }
     /* a callback may read every number, and an input may act on every body */
     const bool whole = scene->own_count > 0 || scene_has_calls(scene) || scene_holds_inputs(scene);
-    for (size_t b = 1; whole && b < scene->body_count; b++) join(parent, (int)b, 0);
+    for (size_t b = 1; whole && b < scene->body_count; b++) sets_join(parent, (int)b, 0);
     for (size_t i = 0; i < scene->event_count; i++) {
         int read = join_read(scene, parent, scene->events[i].left, -1);
         read = join_read(scene, parent, scene->events[i].right, read);
@@ -132,7 +117,7 @@ static void join_all(const struct fbd_model *model, int *parent, struct items *i
     for (size_t i = 0; i < scene->force_coupling_count; i++) {
         const int *body = scene->force_couplings[i].body;
         group[of_coupling][i] = body[0] != ground_body ? body[0] : body[1];
-        if (body[0] != ground_body && body[1] != ground_body) join(parent, body[0], body[1]);
+        if (body[0] != ground_body && body[1] != ground_body) sets_join(parent, body[0], body[1]);
         join_load(scene, parent, &scene->force_couplings[i].load, group[of_coupling][i]);
     }
     for (size_t i = 0; i < scene->constraint_count; i++)
@@ -151,7 +136,7 @@ static size_t number_groups(int *parent, struct items *items)
 {
     int *of_bodies = items->group[of_body], count = 0;
     for (size_t b = 0; b < items->count[of_body]; b++) {
-        int root = find(parent, (int)b);
+        int root = sets_first(parent, (int)b);
         of_bodies[b] = root == (int)b ? count++ : of_bodies[root];
     }
     for (int kind = of_body + 1; kind < kinds; kind++)

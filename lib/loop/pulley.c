@@ -59,7 +59,7 @@ static const char *pulley_of(const struct run *run, int coupling)
 void run_watch_pulleys(struct run *run, struct time_dd *t)
 {
     const struct tree *tree = run->model->tree;
-    for (int i = 0; tree && i + 1 < tree->coupling_count; i++) {
+    for (int i = 0; i + 1 < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
         if (!rope_goes_on(tree, i) || !is_taut(run->during, coupling) || !is_taut(run->during, coupling + 1))
             continue;
@@ -74,7 +74,7 @@ void run_watch_pulleys(struct run *run, struct time_dd *t)
 void run_check_pulleys(struct run *run)
 {
     const struct tree *tree = run->model->tree;
-    for (int i = 0; tree && i + 1 < tree->coupling_count && run->end.outcome == FBD_GOING; i++) {
+    for (int i = 0; i + 1 < tree->coupling_count && run->end.outcome == FBD_GOING; i++) {
         const struct coupling *coupling = &tree->couplings[i];
         if (!rope_goes_on(tree, i) || !is_taut(run->state, coupling) || !is_taut(run->state, coupling + 1))
             continue;

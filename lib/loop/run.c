@@ -36,8 +36,7 @@ static bool restart(struct run *run)
         roundoff_estimate(run);
     }
     watchers_follow(&run->watchers, run->during);
-    if (run->model->tree && run->model->tree->plane_count > 0 && planes_set_out(run->state))
-        switcher_expect_stiff(run->stepper);
+    if (run->model->tree->plane_count > 0 && planes_set_out(run->state)) switcher_expect_stiff(run->stepper);
     int status = run_start_stepper(run);
     if (status != GSL_SUCCESS) {
         run_fail_step(run, stepper_bad_function);

@@ -59,6 +59,12 @@ struct run_event {
     struct impact_record impact;
 };
 
+/* Are they of the same kind, body and source? */
+static inline bool events_are_alike(const struct run_event *a, const struct run_event *b)
+{
+    return a->kind == b->kind && a->body == b->body && a->load == b->load && a->watch == b->watch;
+}
+
 /* The largest residuals of the coupling equations at the end of a step, before and after the projection. */
 struct drift {
     double position, velocity, left_position, left_velocity;

@@ -28,15 +28,6 @@ static int jacobian(double t, const double y[], double *dfdy, double dfdt[], voi
 
 /* ---- allocation and start */
 
-/* Do the works of all loads follow from potentials that are there all the time? */
-static bool has_potentials(const struct fbd_model *model)
-{
-    for (size_t i = 0; i < model->load_count; i++)
-        if (model->loads[i].potential_kind == potential_none || model->loads[i].source->lifetime.number > 0)
-            return false;
-    return true;
-}
-
 /* Does a step need the forces at its end? Friction of single bodies does where it changes its own normal
  * force. */
 static bool asks_forces(const struct run *run)
@@ -119,7 +110,7 @@ static bool make_run(struct run *run, const struct state_start *begin)
     system.function = rates_call(run->rates, &system.params);
     counted_system_init(&run->system, &system);
     if (!run_make_stepper(run)) return false;
-    run->leaps = run->plain && run->kind == structure_linear && has_potentials(run->model);
+    run->leaps = run->plain && run->kind == structure_linear && energy_has_potentials(run->model);
     return run->kind != structure_linear || make_linear(run);
 }
 

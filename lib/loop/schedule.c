@@ -49,11 +49,11 @@ static void sift(struct ensemble *ensemble, size_t i)
     queue[i] = group;
 }
 
+/* Queue the islands; with `lazy`, as ensemble_go has it, without the quiet ones. */
 static void start(struct ensemble *ensemble, bool lazy)
 {
     if (ensemble->started) return;
     ensemble->started = true;
-    ensemble->lazy = lazy;
     ensemble->calm = -HUGE_VAL;
     for (size_t p = 0; p < ensemble->count; p++) {
         struct group *group = &ensemble->groups[p];

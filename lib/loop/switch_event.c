@@ -118,7 +118,7 @@ void run_check_friction(struct run *run)
     const struct fbd_model *model = run->model;
     for (int pair = 0; pair < (int)model->plan.mode_count; pair++) {
         const struct mode *mode = &model->plan.modes[pair];
-        if (!mode->mu_s.expr && !mode->mu_k.expr) continue;
+        if (!mode_friction_varies(mode)) continue;
         const struct instant at = state_instant(run->state);
         struct text why = {0};
         double mu = friction_below_zero(model, pair, &at);

@@ -15,11 +15,6 @@
 /* Speeds after an impact below this share of those before it are rounding. */
 static const double leaving_rounding = undecided_part;
 
-static const struct tree *tree_of(const struct run *run)
-{
-    return run->model->tree;
-}
-
 /* The acceleration of a coupling's gap with only the surfaces that stay closed: without those that the impact has just
  * opened (a box that falls flat bounces on all its corners, and one of a row may leave the next as well) and
  * without its own; by evaluating a trial state in these modes. */
@@ -27,7 +22,7 @@ static double acceleration_of(struct run *run, int coupling)
 {
     const struct contacts_work *work = &run->contacts;
     struct fbd_state *state = work->trial;
-    const struct tree *tree = tree_of(run);
+    const struct tree *tree = run->model->tree;
     state_copy(state, run->state);
     state->slip[tree->couplings[coupling].surface] = slip_plus;
     for (int i = 0; i < work->struck; i++) {
@@ -41,13 +36,13 @@ static double acceleration_of(struct run *run, int coupling)
         if (leaves) state->slip[tree->couplings[own].surface] = slip_plus;
     }
     state_evaluate(state);
-    return state->tree->rows[tree_of(run)->couplings[coupling].first_row].g.x2;
+    return state->tree->rows[run->model->tree->couplings[coupling].first_row].g.x2;
 }
 
 /* Is the restitution of a contact pair independent of speed? */
 static bool has_constant_restitution(const struct run *run, int meeting)
 {
-    int index = tree_of(run)->meetings[meeting].constraint;
+    int index = run->model->tree->meetings[meeting].constraint;
     const struct expr *expr = run->model->scene->constraints[index].contact.restitution.expr;
     return !expr || expr_is_constant(expr);
 }
@@ -132,7 +127,7 @@ static double leaving_speed(const struct run *run, int meeting, int count)
     const double *v = run->contacts.v;
     double most = 0;
     for (int i = 0; i < count; i++, v += 2)
-        if (tree_of(run)->couplings[run->contacts.strikers[i].coupling].meeting == meeting)
+        if (run->model->tree->couplings[run->contacts.strikers[i].coupling].meeting == meeting)
             most = fmax(most, *v);
     return most;
 }
@@ -219,7 +214,7 @@ static bool any_hops(struct run *run, int count)
         if (!striker->contact || !contacts_part(run, i)) continue;
         double v = work->v[(ptrdiff_t)2 * i], a = -acceleration_of(run, striker->coupling),
                unseen = zeno_height * meeting_near(run->model, run->state->tree,
-                                                   tree_of(run)->couplings[striker->coupling].meeting);
+                                                   run->model->tree->couplings[striker->coupling].meeting);
         if (a > 0 && v * v <= 2 * a * unseen) return true;
     }
     return false;
@@ -240,7 +235,7 @@ static double end_of_series(struct run *run, int i, int count)
 {
     const struct contacts_work *work = &run->contacts;
     const struct striker *striker = &work->strikers[i];
-    int index = tree_of(run)->couplings[striker->coupling].meeting,
+    int index = run->model->tree->couplings[striker->coupling].meeting,
         feature = run->state->tree->couplings[striker->coupling].feature;
     struct bounces *bounces = &run->contacts.bounces[index];
     double v = work->v[(ptrdiff_t)2 * i], leaving = leaving_speed(run, index, count),
@@ -283,7 +278,7 @@ bool zeno_end_bounces(struct run *run, int count)
     for (int i = 0; i < count; i++) {
         const struct striker *striker = &run->contacts.strikers[i];
         if (!striker->contact || striker->v_n >= 0) continue;
-        int index = tree_of(run)->couplings[striker->coupling].meeting;
+        int index = run->model->tree->couplings[striker->coupling].meeting;
         const struct bounces *bounces = &run->contacts.bounces[index];
         if (bounces->count > 0 && bounces->t[0] == run->state->t)
             continue; /* another corner of the same shapes */
@@ -296,7 +291,8 @@ bool zeno_end_bounces(struct run *run, int count)
     for (int i = 0; i < count; i++) {
         const struct striker *striker = &run->contacts.strikers[i];
         if (striker->contact && striker->v_n < 0)
-            run->contacts.bounces[tree_of(run)->couplings[striker->coupling].meeting].rests_from = HUGE_VAL;
+            run->contacts.bounces[run->model->tree->couplings[striker->coupling].meeting].rests_from =
+                HUGE_VAL;
     }
     return false;
 }
@@ -307,7 +303,7 @@ static double unseen_of(const struct run *run, const struct striker *striker)
     const double nobody_sees = undecided_part; /* of a rope */
     const struct instant at = state_instant(run->state);
     if (striker->rope) return nobody_sees * run->state->tree->couplings[striker->coupling].zero;
-    return one_sided_at(run->model, &at, tree_of(run)->couplings[striker->coupling].surface).near;
+    return one_sided_at(run->model, &at, run->model->tree->couplings[striker->coupling].surface).near;
 }
 
 /* Do ropes become taut at decreasing intervals? Compared over two of them, as intervals alternate. */
@@ -345,15 +341,15 @@ double zeno_rope_limit(const struct run *run)
 double zeno_next_rest(const struct run *run)
 {
     double next = HUGE_VAL;
-    int count = tree_of(run) ? tree_of(run)->meeting_count : 0;
+    int count = run->model->tree->meeting_count;
     for (int i = 0; i < count; i++) next = fmin(next, run->contacts.bounces[i].rests_from);
     return next;
 }
 
 void zeno_log_rests(struct run *run)
 {
-    const struct tree *tree = tree_of(run);
-    int count = tree ? tree->meeting_count : 0;
+    const struct tree *tree = run->model->tree;
+    int count = tree->meeting_count;
     for (int i = 0; i < count; i++) {
         struct bounces *bounces = &run->contacts.bounces[i];
         if (bounces->rests_from > run->state->t) continue;

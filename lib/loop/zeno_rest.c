@@ -17,16 +17,11 @@
  * axis of rotation. */
 static const double wide = 2 * zeno_height, levers = 8;
 
-static const struct tree *tree_of(const struct run *run)
-{
-    return run->model->tree;
-}
-
 /* The last contact pair with a summed series. */
 static int last_at_rest(const struct run *run)
 {
     int last = 0;
-    for (int i = 0; i < tree_of(run)->meeting_count; i++)
+    for (int i = 0; i < run->model->tree->meeting_count; i++)
         if (run->contacts.bounces[i].rests_from < HUGE_VAL) last = i;
     return last;
 }
@@ -35,7 +30,7 @@ static int last_at_rest(const struct run *run)
 static double slow_speed(const struct run *run)
 {
     double slow = 0;
-    for (int i = 0; i < tree_of(run)->meeting_count; i++) {
+    for (int i = 0; i < run->model->tree->meeting_count; i++) {
         const struct bounces *bounces = &run->contacts.bounces[i];
         if (bounces->rests_from < HUGE_VAL) slow = fmax(slow, bounces->slow);
     }
@@ -45,7 +40,7 @@ static double slow_speed(const struct run *run)
 /* Open touching contacts that separate faster than `slow`. */
 static void let_part(struct run *run, double slow)
 {
-    const struct tree *tree = tree_of(run);
+    const struct tree *tree = run->model->tree;
     struct fbd_state *state = run->state;
     for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
@@ -59,7 +54,7 @@ static void let_part(struct run *run, double slow)
 /* Is the slip so slow that friction ends it within the position tolerance, as the remaining impacts would? */
 static bool stops_at_once(const struct run *run, int index, double slow)
 {
-    const struct coupling *coupling = &tree_of(run)->couplings[index];
+    const struct coupling *coupling = &run->model->tree->couplings[index];
     const struct instant at = state_instant(run->state);
     if (run->state->tree->couplings[index].feature == no_feature) return false;
     double mu = formula_value(&run->model->plan.modes[coupling->pair].mu_k, &at);
@@ -71,7 +66,7 @@ static bool stops_at_once(const struct run *run, int index, double slow)
 static double speed_between(const struct run *run, const struct tree_work *before,
                             const struct tree_work *after)
 {
-    const struct tree *tree = tree_of(run);
+    const struct tree *tree = run->model->tree;
     double most = 0;
     for (int i = 0; i < tree->meeting_count; i++)
         for (int k = 0; k < 2; k++) {
@@ -89,7 +84,7 @@ static bool is_summed_up(const struct run *run, int i, double slow)
     const struct contacts_work *work = &run->contacts;
     const struct striker *striker = &work->strikers[i];
     return striker->contact &&
-           work->bounces[tree_of(run)->couplings[striker->coupling].meeting].rests_from < HUGE_VAL &&
+           work->bounces[run->model->tree->couplings[striker->coupling].meeting].rests_from < HUGE_VAL &&
            work->v[(ptrdiff_t)2 * i] <= slow;
 }
 
@@ -97,7 +92,7 @@ static bool is_summed_up(const struct run *run, int i, double slow)
 static void try_to_close(struct run *run, int count, double slow, struct fbd_state *state)
 {
     const struct contacts_work *work = &run->contacts;
-    const struct tree *tree = tree_of(run);
+    const struct tree *tree = run->model->tree;
     state_copy(state, run->state);
     for (int i = 0; i < count; i++) {
         const struct striker *striker = &work->strikers[i];
@@ -122,7 +117,7 @@ static void try_to_close(struct run *run, int count, double slow, struct fbd_sta
 bool zeno_rest_is_harmless(struct run *run, int count)
 {
     const double resolved = 0.1; /* of the separation speed */
-    const struct tree *tree = tree_of(run);
+    const struct tree *tree = run->model->tree;
     struct fbd_state *state = run->contacts.trial;
     double slow = slow_speed(run), leaving = 0, left = 0;
     for (int i = 0; i < count; i++)
@@ -141,7 +136,7 @@ bool zeno_rest_is_harmless(struct run *run, int count)
 /* The largest displacement of shapes since the state `before`. */
 static double way_since(const struct run *run, const struct tree_work *before)
 {
-    const struct tree *tree = tree_of(run);
+    const struct tree *tree = run->model->tree;
     double way = 0;
     for (int i = 0; i < tree->meeting_count; i++)
         for (int k = 0; k < 2; k++) {
@@ -157,7 +152,7 @@ static double way_since(const struct run *run, const struct tree_work *before)
 /* Does any closed contact overlap by more than the touching tolerance? */
 static bool is_deep(const struct run *run)
 {
-    const struct tree *tree = tree_of(run);
+    const struct tree *tree = run->model->tree;
     bool deep = false;
     for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
@@ -172,7 +167,7 @@ static bool is_deep(const struct run *run)
  * little: their positions along them have no better accuracy. */
 static void move_along(struct run *run)
 {
-    const struct tree *tree = tree_of(run);
+    const struct tree *tree = run->model->tree;
     struct fbd_state *state = run->state;
     bool *moves = run->contacts.moves;
     for (int i = 0; i < tree->coupling_count; i++) {
@@ -197,7 +192,7 @@ static bool move_a_little(struct run *run)
 {
     struct fbd_state *state = run->state, *before = run->contacts.trial;
     double near = 0;
-    for (int i = 0; i < tree_of(run)->meeting_count; i++)
+    for (int i = 0; i < run->model->tree->meeting_count; i++)
         near = fmax(near, meeting_near(run->model, state->tree, i));
     state_copy(before, state);
     impulse_look(before);
@@ -215,7 +210,7 @@ static bool move_a_little(struct run *run)
 /* Open the contacts that did not touch before. */
 static void open_others(struct run *run, const bool *was_touching)
 {
-    const struct tree *tree = tree_of(run);
+    const struct tree *tree = run->model->tree;
     struct fbd_state *state = run->state;
     for (int i = 0; i < tree->coupling_count; i++) {
         if (was_touching[i] || state->tree->couplings[i].feature == no_feature) continue;
@@ -228,7 +223,7 @@ static void open_others(struct run *run, const bool *was_touching)
  * tolerance. */
 static void close_within(struct run *run, double share)
 {
-    const struct tree *tree = tree_of(run);
+    const struct tree *tree = run->model->tree;
     const struct contacts_work *work = &run->contacts;
     for (int i = 0; i < tree->meeting_count; i++) {
         double near = meeting_near(run->model, run->state->tree, i);
@@ -251,7 +246,7 @@ static void close_within(struct run *run, double share)
 /* Add the change of potential energy by the displacement to the work of the contact's impacts. */
 static void book_place(struct run *run, int meeting, double before)
 {
-    const struct tree *tree = tree_of(run);
+    const struct tree *tree = run->model->tree;
     double change = energy_of_place(run) - before;
     run->impact_work[tree->couplings[tree->meetings[meeting].first_coupling].load] += change;
     run->energy.lowered += change;
@@ -272,7 +267,7 @@ static int stop_closed(struct run *run)
 /* Place bodies with bounces below the tolerance on their surfaces and stop them by the impulses of the rest of the series. */
 int zeno_rest(struct run *run)
 {
-    const struct tree *tree = tree_of(run);
+    const struct tree *tree = run->model->tree;
     struct contacts_work *work = &run->contacts;
     bool *was_touching = work->touching;
     double above = energy_of_place(run);
@@ -301,7 +296,7 @@ static int find_deep(struct run *run)
     struct fbd_state *state = run->state;
     const struct instant at = state_instant(state);
     int last = -1;
-    for (int i = 0; i < tree_of(run)->meeting_count; i++) {
+    for (int i = 0; i < run->model->tree->meeting_count; i++) {
         double near = meeting_near(run->model, state->tree, i), deep = meeting_depth(run->model, &at, i);
         if (!(deep > near && deep < levers * wide * near)) continue;
         contacts_find_touching(run, i, fmax(wide * near, 1.001 * deep));
@@ -314,7 +309,7 @@ static int find_deep(struct run *run)
 bool zeno_lift_others(struct run *run)
 {
     enum { most_rounds = 8 };
-    const struct tree *tree = tree_of(run);
+    const struct tree *tree = run->model->tree;
     bool *was_touching = run->contacts.touching, any = false;
     for (int i = 0; i < tree->coupling_count; i++)
         was_touching[i] = run->state->tree->couplings[i].feature != no_feature;

@@ -8,6 +8,8 @@
  */
 #include "model/builder.h"
 
+#include <string.h>
+
 bool slots_find_constant(struct fbd_model *model)
 {
     const struct scene *scene = model->scene;
@@ -196,4 +198,17 @@ bool classify_loads(struct builder *builder)
         if (verdict.kind == potential_quadrature) load->reference = reference_of(model, load, origin);
     }
     return true;
+}
+
+void model_note_potentials(const struct fbd_model *model, fbd_errors *errors)
+{
+    for (size_t i = 0; i < model->load_count; i++) {
+        const struct model_load *load = &model->loads[i];
+        const char *reason = strchr(load->why, ':');
+        if (!load->source->conservative || load->potential_kind != potential_none || !reason) continue;
+        diag_add(errors, FBD_WARNING, "no-potential", load->source->at,
+                 "leave `conservative` out: the work of the force is counted as work",
+                 "`%s` of `%s` is declared `conservative`, but has no potential energy%s", load->source->name,
+                 model->bodies[load->body].name, reason);
+    }
 }

@@ -6,7 +6,7 @@
 struct coupling_end coupling_end_of(const struct fbd_model *model, int index, int k)
 {
     const struct constraint *source = &model->scene->constraints[index];
-    struct coupling_end end = {.body = source->body[k], .radius = source->radius[k], .side = source->side[k]};
+    struct coupling_end end = {.body = source->body[k], .radius = source->radius[k]};
     const struct point *point = &source->point[k];
     end.point = point->where;
     if (end.body == ground_body) return end;
@@ -142,12 +142,10 @@ static void set_line(const struct fbd_model *model, struct coupling *coupling)
 {
     const struct constraint *source = coupling->source;
     struct vec e = vec_unit(source->along);
-    coupling->turn = source->along;
     coupling->e = e;
     if (source->body[1] == ground_body) return;
     const struct placement *place = &model->bodies[source->body[1]].place;
     coupling->e = vec_turn(place->turn, e);
-    coupling->turn += place->angle;
 }
 
 /* Friction on a plane has no row of its normal force, and rows in two directions of the plane. */

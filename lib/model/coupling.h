@@ -17,7 +17,6 @@ struct coupling_end {
     int body, link; /* body: -1, and link: 0 for the ground */
     struct vec point;
     double radius;       /* of the circle there, else 0 */
-    int side;            /* rope: +1 when it runs counter-clockwise round the circle */
     const char *name[2]; /* of its force in the diagram of the body; roll: across and along the line */
 };
 
@@ -33,7 +32,6 @@ struct coupling {
     int end_count;
     struct coupling_end end[most_constraint_ends];
     struct vec e;      /* roll, rack: the line in the frame of the link of end 1 */
-    double turn;       /* roll, rack: the angle of the line there */
     bool length_given; /* rod, rope */
     double length;
     int wound[2]; /* rope: enum wound_side at the start and end of the piece, on a disc that it is wound on */

@@ -145,6 +145,9 @@ static inline bool slot_is_constant(const struct fbd_model *model, int slot)
     return model->constant_slots && model->constant_slots[slot];
 }
 
+/* Warn of forces that the file declares `conservative` and that have no potential energy (`no-potential`). */
+void model_note_potentials(const struct fbd_model *model, fbd_errors *errors);
+
 /* Compile a scene; the model takes ownership of the scene, also on failure. NULL with notes in `errors`, for
  * example for impossible masses and inertias (`bad-inertia`). */
 struct fbd_model *model_compile(struct scene *scene, fbd_errors *errors);

@@ -83,6 +83,12 @@ static inline bool mode_is_friction(const struct mode *mode)
     return mode->kind <= mode_plane;
 }
 
+/* Is one of its coefficients an expression? */
+static inline bool mode_friction_varies(const struct mode *mode)
+{
+    return mode->mu_s.expr || mode->mu_k.expr;
+}
+
 /* Along a coordinate, on a slide or in a bearing. */
 static inline bool mode_is_joint_friction(const struct mode *mode)
 {

@@ -14,7 +14,7 @@
 static bool holds_by_more(const struct mode *mode)
 {
     return mode_is_friction(mode) &&
-           (mode->mu_s.expr || mode->mu_k.expr || mode->mu_s.constant > mode->mu_k.constant);
+           (mode_friction_varies(mode) || mode->mu_s.constant > mode->mu_k.constant);
 }
 
 /* ---- points that share the weight */

@@ -197,6 +197,17 @@ static inline bool tree_joins(const struct tree *tree)
     return tree->joined > 1;
 }
 
+/* Are there couplings, contacts among them? */
+static inline bool tree_has_couplings(const struct tree *tree)
+{
+    return tree->coupling_count > 0;
+}
+
+static inline bool tree_has_contacts(const struct tree *tree)
+{
+    return tree->meeting_count > 0;
+}
+
 static inline bool link_is_alone(const struct tree *tree, int link)
 {
     return link >= tree->joined;

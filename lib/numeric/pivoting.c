@@ -144,7 +144,8 @@ static bool block_new(struct pivoting_block *block, const struct pivoting_proble
 {
     *block = (struct pivoting_block){.rows = calloc(most + 1, sizeof *block->rows),
                                      .size = problem->size,
-                                     .basic = problem->basic};
+                                     .basic = problem->basic,
+                                     .coarse = problem->coarse};
     block->A = calloc(most * (most + 1) + 1, sizeof *block->A);
     block->scale = block->A ? block->A + most * most : NULL;
     block->from = calloc(most + 1, sizeof *block->from);

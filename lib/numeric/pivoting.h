@@ -63,6 +63,7 @@ struct pivoting_problem {
     struct pivoting_row *rows;
     const double *A; /* count x count, row by row */
     bool basic;      /* the forces of a basis, as many as can be at their limits, in place of the least */
+    bool coarse;     /* rows that are independent by less than `dependent_row` depend on others */
     bool examine;    /* enumerate all solutions of blocks of at most pivoting_few rows */
     double size;     /* a size of w / sqrt(A_ii) relative to which w may be round-off, beside that of b */
 };

@@ -17,13 +17,13 @@ struct pivoting_block {
     size_t n;
     struct pivoting_row *rows;
     double *A;
-    size_t *from;  /* index of each row in the problem */
-    double *scale; /* 1 / sqrt(A_ii) */
-    double size;   /* largest |b| of the whole problem, scaled */
-    double level;  /* accelerations that are zero, at the present forces */
-    size_t beyond; /* after pivoting_fit: a row that cannot satisfy a limit, or n; */
-    int at;        /* the mode of that limit */
-    bool basic;    /* as of the problem */
+    size_t *from;       /* index of each row in the problem */
+    double *scale;      /* 1 / sqrt(A_ii) */
+    double size;        /* largest |b| of the whole problem, scaled */
+    double level;       /* accelerations that are zero, at the present forces */
+    size_t beyond;      /* after pivoting_fit: a row that cannot satisfy a limit, or n; */
+    int at;             /* the mode of that limit */
+    bool basic, coarse; /* as of the problem */
     bool
         is_kinetic; /* all limits have their loss where w is not zero, not only those of rows that slip already */
     struct fit *fit; /* memory of pivoting_modes.c */

@@ -168,9 +168,16 @@ static void remove_from_others(struct fit *fit, size_t k)
     }
 }
 
+/* Remainders, relative to the largest row, that count as zero. */
+static double negligible_remainder(const struct fit *fit)
+{
+    return fit->block->coarse ? dependent_row : pivoting_zero;
+}
+
 /* The rank of K, and x as its least solution. */
 static void solve_equations(struct fit *fit)
 {
+    const double least = negligible_remainder(fit);
     size_t m = fit->set.n;
     for (size_t a = 0; a < m; a++)
         fit->square[a] = vector_dot(fit->set.rows + a * m, fit->set.rows + a * m, m);
@@ -183,7 +190,7 @@ static void solve_equations(struct fit *fit)
         fit->set.order[most] = fit->set.order[k];
         fit->set.order[k] = kept;
         if (k == 0) fit->first = fit->square[kept];
-        if (!(fit->square[kept] > pivoting_zero * pivoting_zero * fit->first)) break;
+        if (!(fit->square[kept] > least * least * fit->first)) break;
         normalise(fit, k);
         remove_from_others(fit, k);
         vector_add_multiple(fit->set.x, active_set_row(&fit->set, k), fit->right[kept], m);
@@ -256,11 +263,13 @@ static void set_forces(struct fit *fit, bool limited)
         }
 }
 
+/* Rows that depend on others have the accelerations that the shift of rows leaves. */
 static bool has_sign(const struct fit *fit, size_t i)
 {
     struct pivoting_row *row = &fit->block->rows[i];
     double level = fit->block->level;
-    if (fit->place[i] < fit->block->n) return fabs(row->w) <= level;
+    if (fit->place[i] < fit->block->n)
+        return fabs(row->w) <= (fit->block->coarse ? shift_of_rows / solved_rounding : 1) * level;
     if (fit->is_loose[i]) return true;
     return row->mode == at_high ? row->w <= level : row->w >= -level;
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Tolerances of numeric, integrate, model, events, record, holds and rest: each with its unit, meaning and reason. A number
- * of this kind elsewhere in these rooms fails a test (tests/tools/check_files). Numbers without a unit are relative to the
- * size that is named with them.
+ * Tolerances of numeric, integrate, model, events, record, holds, rest and section: each with its unit, meaning and reason.
+ * A number of this kind elsewhere in these rooms fails a test (tests/tools/check_files). Numbers without a unit are relative
+ * to the size that is named with them.
  */
 #ifndef FBD_NUMERIC_TOLERANCES_H
 #define FBD_NUMERIC_TOLERANCES_H
@@ -89,8 +89,11 @@ static const double balancing_motion = 1e-3;
  * left out. */
 static const double projection_damping = 1e-6;
 
-/* Pivoting: equations that depend on others, and inequalities that are violated, relative to the largest; accelerations
- * have ten times that by the equations that were left out, `solved_rounding`. Accelerations of two solutions that differ. */
+/* Rows of couplings and contacts: a shift of the diagonal, relative to the response of a row at other positions, by which
+ * dependent rows have the least forces. Rows that are independent by less than some of these shifts are dependent. */
+static const double shift_of_rows = 1e-8, dependent_row = 1e-7;
+
+/* Pivoting: inequalities that are violated, relative to the largest. Accelerations of two solutions that differ. */
 static const double pivoting_zero = 1e-11, pivoting_difference = 1e-8;
 
 /* Least distance: 1 / |x|^2, below which there is no point x of a size that forces have. */

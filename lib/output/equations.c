@@ -61,12 +61,6 @@ double equation_term(const struct model_body *body, const struct arrow *arrow, i
     return about_G ? arrow_moment(arrow, G) : arrow->share[part];
 }
 
-static struct vec mass_center(const struct model_body *body, const struct instant *at)
-{
-    struct pose pose = body_pose(body, at);
-    return point_motion(body, &pose, body->inertia.G).p;
-}
-
 /* ---- rows */
 
 static void add_term(struct equation *equation, const char *name, double value, int load)

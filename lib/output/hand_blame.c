@@ -19,7 +19,7 @@ struct inquiry {
     struct suspects_look look, other; /* at states of the model, and of variants with other parameters */
     struct arena arena;
     struct suspect *list;
-    size_t count, alive, states;
+    size_t count, states;
     bool *named; /* of each arrow: it is in the line */
 };
 
@@ -52,7 +52,6 @@ static bool open_list(struct inquiry *inquiry)
     if (inquiry->list) return true;
     inquiry->list = suspects_list(look, &inquiry->arena, &inquiry->count);
     inquiry->named = ARENA_ARRAY(&inquiry->arena, look->arrow_count + 1, bool);
-    inquiry->alive = inquiry->count;
     return inquiry->list && inquiry->named;
 }
 

@@ -358,7 +358,7 @@ static fbd_section *section_of(const struct fbd_state *state, int body, fbd_sect
 static void write_section(const struct fbd_section *section, const struct absolute *absolute, double *value,
                           double *size)
 {
-    const double x = section ? section_snap(section, absolute->point.where.x) : NAN;
+    const double x = absolute->point.where.x;
     *value = section ? section_force_at(section, (enum section_force)absolute->part, x, false) : NAN;
     *size = section ? section->size[absolute->part] : NAN;
 }
@@ -412,7 +412,9 @@ static struct fbd_model *compile(const struct document *document, const struct o
                                  size_t count, fbd_errors *errors)
 {
     struct scene *scene = scene_make(document, overrides, count, errors);
-    return scene ? model_compile(scene, errors) : NULL;
+    struct fbd_model *model = scene ? model_compile(scene, errors) : NULL;
+    if (model) model_note_potentials(model, errors);
+    return model;
 }
 
 /* The sections that derivations name exist. */

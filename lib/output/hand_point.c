@@ -10,7 +10,6 @@
 #include "output/hand_suspects.h"
 
 struct pointing {
-    struct hand_check *check;
     struct suspects_look look;
     size_t states;
     bool fits[most_places];
@@ -37,7 +36,7 @@ static bool visit(void *context, struct fbd_state *state, const struct hand_name
 bool hand_find_point(struct hand_check *check)
 {
     const struct hand *hand = &check->model->scene->bodies[check->body].hands[check->index];
-    struct pointing pointing = {.check = check, .look = {.check = check}};
+    struct pointing pointing = {.look = {.check = check}};
     if (!hand->about[0]) return true;
     gsl_rng *rng = gsl_rng_clone(check->rng);
     const bool done = rng && hand_each_state(check, rng, visit, &pointing);

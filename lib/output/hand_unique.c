@@ -101,8 +101,7 @@ bool hand_is_open(struct hand_check *check, const struct hand *hand, const struc
     bool open = false;
     question.before = ARENA_ARRAY(&arena, room, double);
     question.after = ARENA_ARRAY(&arena, room, double);
-    if (question.before && question.after &&
-        rest_open(&question.system, state, &at, state->slots, state->a, &arena)) {
+    if (question.before && question.after && rest_open(&question.system, state, &at, state->slots, &arena)) {
         rest_restore(&question.system);
         hand_extend(state, check->body, named, question.before);
         question.size = fmax(question.size, reach_of(&question));

@@ -24,15 +24,11 @@ static int compare(const void *a, const void *b)
 static size_t list_places(const fbd_section *section, double *places)
 {
     size_t count = 0, kept = 0;
-    for (int i = 0; i <= tenths; i++) places[count++] = section->length * i / tenths;
+    for (int i = 0; i <= tenths; i++) places[count++] = section_snap(section, section->length * i / tenths);
     for (size_t i = 0; i < section->load_count; i++) places[count++] = section->loads[i].x;
     qsort(places, count, sizeof *places, compare);
     for (size_t i = 0; i < count; i++)
-        if (kept == 0 || places[i] > places[kept - 1] + 1e-11 * section->length)
-            places[kept++] = places[i];
-        else if (i > 0)
-            for (size_t k = 0; k < section->load_count; k++) /* the exact place of the load */
-                if (section->loads[k].x == places[i]) places[kept - 1] = places[i];
+        if (kept == 0 || places[i] > places[kept - 1]) places[kept++] = places[i];
     return kept;
 }
 

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/api_check.h"
+#include "numeric/tolerances.h"
 #include "output/equations.h"
 #include "rest/statics.h"
 #include "section/name.h"
@@ -14,7 +15,7 @@
 static void take_extreme(fbd_section *section, int k, double x, double value)
 {
     fbd_section_extreme *least = &section->extremes[k][0], *greatest = &section->extremes[k][1];
-    const double near = 1e-12 * section->size[k];
+    const double near = negligible_sum * section->size[k];
     if (value < least->value - near) *least = (fbd_section_extreme){x, value};
     if (value > greatest->value + near) *greatest = (fbd_section_extreme){x, value};
 }
@@ -45,7 +46,7 @@ static void find_extremes(fbd_section *section)
 static void name_ends(fbd_section *section, const struct body *body)
 {
     const struct vec last = vec_add(section->origin, vec_scale(section->length, section->e));
-    const double near = 1e-9 * section->length;
+    const double near = nine_digits * section->length;
     for (size_t i = 0; i < body->point_count; i++) {
         const struct named_point *point = &body->points[i];
         if (!section->start && vec_norm(vec_sub(point->where, section->origin)) <= near)

@@ -90,7 +90,7 @@ bool coupling_of_force(const struct fbd_model *model, int b, const char *name, s
 const char *drawing_of_force(const struct fbd_model *model, int b, const char *name, int load)
 {
     struct coupling_place place;
-    if (model->tree && coupling_of_force(model, b, name, &place)) {
+    if (coupling_of_force(model, b, name, &place)) {
         const enum constraint_kind kind = model->tree->couplings[place.coupling].kind;
         if ((kind == constraint_contact || kind == constraint_roll) && place.part == 1) return "friction";
     }

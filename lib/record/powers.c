@@ -132,7 +132,7 @@ static bool has_expressions(const struct fbd_model *model)
         has |= model->tree->couplings[i].reels || model->tree->couplings[i].surface_speed.expr;
     for (size_t i = 0; i < model->plan.mode_count; i++) {
         const struct mode *mode = &model->plan.modes[i];
-        has |= mode->mu_s.expr || mode->mu_k.expr || mode->surface_speed.expr;
+        has |= mode_friction_varies(mode) || mode->surface_speed.expr;
     }
     return has;
 }

@@ -20,17 +20,12 @@
 
 /* ---- conditions */
 
-static bool is_coupled(const struct fbd_model *model)
-{
-    return model->tree->coupling_count > 0;
-}
-
 /* Are there dependent coordinates, by couplings or prescribed? */
 static bool is_reduced(const struct fbd_model *model)
 {
     bool driven = false;
     for (size_t i = 0; i < (size_t)model->plan.n; i++) driven |= coordinate_is_driven(model, i);
-    return driven || is_coupled(model);
+    return driven || tree_has_couplings(model->tree);
 }
 
 /* With a prescribed motion there is no state of rest, unless it is constant in time. */
@@ -88,7 +83,7 @@ static bool refuse_limits(struct fbd_state *state, fbd_errors *errors)
 {
     const struct fbd_model *model = state->model;
     const struct plan *plan = &model->plan;
-    if (!is_coupled(model) || plan->mode_count == 0) return false;
+    if (!tree_has_couplings(model->tree) || plan->mode_count == 0) return false;
     int *before = calloc(plan->mode_count, sizeof *before), at_limit = -1;
     if (!before) {
         diag_out_of_memory(errors);
@@ -245,7 +240,7 @@ static void drop_dying_slopes(const struct looking *looking, fbd_errors *errors)
 
 static void refuse_singular(const struct fbd_model *model, fbd_errors *errors)
 {
-    if (!is_coupled(model)) return; /* prescribed coordinates alone are never singular */
+    if (!tree_has_couplings(model->tree)) return; /* prescribed coordinates alone are never singular */
     const struct coupling *coupling = &model->tree->couplings[0];
     diag_add(
         errors, FBD_ERROR, "not-independent", model->scene->constraints[coupling->constraint].at,
@@ -267,7 +262,7 @@ static bool choose_coordinates(struct looking *looking, fbd_errors *errors)
         return false;
     }
     if (independent->count == 0) {
-        const bool coupled = is_coupled(linear->model);
+        const bool coupled = tree_has_couplings(linear->model->tree);
         struct pos at = coupled ? linear->model->scene->constraints[tree->couplings[0].constraint].at
                                 : linear->model->bodies[0].source->motion.at;
         diag_add(errors, FBD_ERROR, "sticks", at, "leave out the friction or contact that holds it",
@@ -430,7 +425,7 @@ static fbd_linearization *linearize(fbd_state *state, fbd_errors *errors)
     const struct fbd_model *model = state->model;
     diag_in_file(errors, model->scene->file);
     size_t n = (size_t)model->plan.n;
-    if (model->plan.mode_count > 0 || is_coupled(model)) /* the modes are those at rest */
+    if (model->plan.mode_count > 0 || tree_has_couplings(model->tree)) /* the modes are those at rest */
         memset(state->y + n, 0, n * sizeof *state->y);
     bool settled = modes_settle(state, NULL);
     if (!start_question(state, settled, "the start", errors) || refuse_driven(state, errors) ||

@@ -22,6 +22,7 @@ struct coupling_keys {
     const struct node *at, *points;       /* plane friction */
     const struct node *since, *until;     /* conditions at which it begins and ends */
     const struct node *force;             /* actuator */
+    const struct node *among;             /* contact */
     const struct node *terms;             /* ratio: the mapping itself */
     double stiffness, free_length, coefficient, length, radius, tension, along, efficiency;
     bool inside, crossed, closed;

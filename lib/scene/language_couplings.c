@@ -232,9 +232,12 @@ static const struct choice contact_sides[] = {
 
 static const struct field contact_fields[] = {
     FIELD_NAME(COUPLING(name), "name", "its name in all output; default `contact`"),
-    FIELD_ENTRIES(COUPLING(between), "between", field_list, required, each_word, NULL,
+    FIELD_ENTRIES(COUPLING(between), "between", field_list, 0, each_word, NULL,
                   "a body or body.point, and its partner: the same of another body, or a line, polygon or "
                   "point of the ground"),
+    FIELD_ENTRIES(COUPLING(among), "among", field_any, 0, each_word, NULL,
+                  "instead of `between`: all pairs of a list of bodies, lines and polygons of the ground; or "
+                  "`all`, of all of them"),
     FIELD_VALUE(COUPLING(restitution), "restitution", a_number, not_negative | stored,
                 "e of an impact, 0 to 1; may depend on the approach speed, `approach`; default 0"),
     FIELD_VALUE(COUPLING(mu_s), "static", a_number, not_negative | stored,
@@ -249,8 +252,8 @@ static const struct field contact_fields[] = {
                 "round it; an expression of t; default 0"),
     UNTIL_ROW,
 };
-const struct group contact_group = {"a contact", NULL, FIELDS(contact_fields),
-                                    NULL,        0,    "two bodies, or a body and the ground, that meet"};
+const struct group contact_group = {"a contact", "among", FIELDS(contact_fields),
+                                    NULL,        0,       "two bodies, or a body and the ground, that meet"};
 
 static const struct kind kinds[] = {
     {"spring", load_spring, &spring_group, ~0u, NULL, NULL},

@@ -47,8 +47,8 @@ static const struct field scene_fields[] = {
                "what a run writes"),
     FIELD_KINDS(offsetof(struct scene_keys, couplings), "couplings", field_list, 0, each_kind,
                 &coupling_kinds, "connections of two bodies, besides joints"),
-    FIELD_ENTRIES(offsetof(struct scene_keys, contacts), "contacts", field_list, 0, each_group,
-                  &contact_group, "contacts of bodies with each other or with the ground"),
+    FIELD_ENTRIES(offsetof(struct scene_keys, contacts), "contacts", field_any, 0, each_group, &contact_group,
+                  "contacts of bodies with each other or with the ground; `contacts: all` for all pairs"),
     FIELD_NODE(offsetof(struct scene_keys, grading), "grading", field_map, 0, &grading_group,
                "grading of answers by this file as the key"),
     FIELD_NODE(

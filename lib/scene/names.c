@@ -134,13 +134,10 @@ static struct symbol or_force(const struct names *names, const char *name, struc
     return symbol;
 }
 
-static struct symbol time_symbol(const struct names *names)
+static struct symbol time_symbol(void)
 {
-    const struct override *input = names->reader->time;
     struct symbol time = slot_symbol(DIM_TIME, 0);
     time.because = "is the time";
-    if (input && names->place != place_constant)
-        time = (struct symbol){.kind = symbol_constant, .dim = DIM_TIME, .value = input->now};
     return time;
 }
 
@@ -183,8 +180,7 @@ static struct symbol constant_symbol(struct names *names, size_t index, struct p
     struct symbol symbol = reader->definition_readers->parameter(reader, index, at);
     bool input = reader->scene->parameters[index].input;
     if (input) reader->names_input = true;
-    bool is_time = reader->time && strcmp(reader->time->name, reader->scene->parameters[index].name) == 0;
-    bool varies = input && (names->place == place_constant || is_time);
+    bool varies = input && names->place == place_constant;
     bool outside =
         input_varies(&reader->scene->parameters[index].call) && names->place != place_exact && !varies;
     if (outside && symbol.kind == symbol_constant) return call_symbol(names, index, symbol);
@@ -211,7 +207,7 @@ static struct symbol name_now(struct names *names, const char *name, struct pos 
     if (own_states_name(reader, name))
         return reader->definition_readers->state(names, name + strlen("states."), at);
     if (dot) return or_force(names, name, dotted_symbol(names, name, dot, at), at);
-    if (strcmp(name, "t") == 0) return time_symbol(names);
+    if (strcmp(name, "t") == 0) return time_symbol();
     size_t parameter;
     if (parameters_find(reader, name, &parameter))
         return means_coordinate(names, name, at) ? failed_before : constant_symbol(names, parameter, at);

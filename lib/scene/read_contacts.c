@@ -117,7 +117,13 @@ static bool is_none(const struct value *mu)
 bool surface_speed_read(struct reader *reader, const struct value *speed, struct constraint *constraint)
 {
     const int *slots;
-    if (!speed->expr || (expr_is_constant(speed->expr) && expr_value(speed->expr) == 0)) return true;
+    if (!speed->expr) return true;
+    if (speed->by_input) {
+        diag_add(reader->errors, FBD_ERROR, "not-here", speed->at, "let a force on a body follow the input",
+                 "`surface_speed` cannot name an input here: a body that sticks would jump with it");
+        return false;
+    }
+    if (expr_is_constant(speed->expr) && expr_value(speed->expr) == 0) return true;
     constraint->surface_speed = *speed;
     if (expr_variables(speed->expr, &slots) > 0) {
         diag_add(reader->errors, FBD_ERROR, "not-here", speed->at, "write it as an expression of t",
@@ -148,6 +154,12 @@ static bool check_surface(struct reader *reader, const struct constraint *constr
 bool contact_read(struct reader *reader, const struct coupling_keys *keys, struct constraint *constraint)
 {
     const struct node *list = keys->between;
+    if (!list) {
+        diag_add(reader->errors, FBD_ERROR, "missing-key", constraint->at,
+                 "write `between: [ball, ground.floor]`, or `among: all` for all pairs",
+                 "a contact needs `between` or `among`");
+        return false;
+    }
     if (list->count != 2) {
         diag_add(reader->errors, FBD_ERROR, "wrong-type", list->at, "write [body, ground.line]",
                  "`between` needs two ends, not %zu", list->count);

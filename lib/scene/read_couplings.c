@@ -6,6 +6,7 @@
 #include "scene/coupling_names.h"
 #include "scene/couplings.h"
 #include "scene/fields.h"
+#include "scene/read_among.h"
 #include "scene/reader.h"
 #include "scene/slip_law.h"
 #include "scene/values.h"
@@ -129,20 +130,22 @@ static bool read_between(struct reader *reader, const struct node *list, struct 
 
 /* ---- the list */
 
-/* Read an entry of `couplings`, or of `contacts`. */
-static bool read_coupling(struct reader *reader, const struct node *node, bool contact,
+/* Read an entry of `couplings`; or of `contacts`, with its `pair`. */
+static bool read_coupling(struct reader *reader, const struct node *node, const struct contact_pair *pair,
                           struct coupling_name *name)
 {
     struct scene *scene = reader->scene;
     struct chosen chosen = {contact_kind, node, node->at};
     struct coupling_keys keys = {0};
-    if (!contact && !kind_read(reader, &coupling_kinds, node, "couplings", &chosen)) return false;
+    if (!pair && !kind_read(reader, &coupling_kinds, node, "couplings", &chosen)) return false;
     struct names names = {.reader = reader,
                           .place = chosen.kind == contact_kind ? place_contact : place_event,
                           .body = ground_body};
     struct scope scope = names_scope(&names);
     bool fine = fields_read(reader, chosen.kind->group, chosen.node, chosen.at, &scope, &keys);
     keys.terms = chosen.node;
+    if (pair && pair->between) keys.between = pair->between;
+    if (pair && pair->name) keys.name = pair->name;
     *name = (struct coupling_name){keys.name, chosen.kind, chosen.at, {ground_body, ground_body}};
     if (chosen.kind->value >= coupling_constraint) {
         /* `slip` refers to the next constraint by its number: count that only after both coefficients are
@@ -170,13 +173,23 @@ static bool read_coupling(struct reader *reader, const struct node *node, bool c
     return fine;
 }
 
-static bool read_list(struct reader *reader, const struct node *list, bool contact,
-                      struct coupling_name *names)
+static bool read_list(struct reader *reader, const struct node *list, struct coupling_name *names)
 {
     bool fine = true;
     for (size_t i = 0; list && i < list->count; i++)
-        if (!read_coupling(reader, list->items[i], contact, &names[i])) fine = false;
+        if (!read_coupling(reader, list->items[i], NULL, &names[i])) fine = false;
     return fine;
+}
+
+/* An error in an entry with `among` is one of all of its pairs: the first one notes it. */
+static bool read_pairs(struct reader *reader, const struct contact_pairs *list, struct coupling_name *names)
+{
+    const struct node *wrong = NULL;
+    for (size_t i = 0; i < list->count; i++) {
+        const struct contact_pair *pair = &list->pairs[i];
+        if (pair->entry != wrong && !read_coupling(reader, pair->entry, pair, &names[i])) wrong = pair->entry;
+    }
+    return !wrong;
 }
 
 /* The points of a body on a plane have its name with their numbers. Returns the next constraint. */
@@ -232,26 +245,36 @@ static size_t count_points(const struct node *couplings)
     return count;
 }
 
-bool couplings_read(struct reader *reader, const struct node *couplings, const struct node *contacts)
+/* Name all constraints and forces, in the order of the names. */
+static bool name_all(struct reader *reader, struct coupling_name *names, size_t count)
 {
-    struct scene *scene = reader->scene;
-    size_t first = couplings ? couplings->count : 0, count = first + (contacts ? contacts->count : 0);
-    size_t stops = stops_count(reader), load = 0, constraint = 0;
-    count += stops;
-    scene->force_couplings = ARENA_ARRAY(reader->arena, count, struct force_coupling);
-    scene->constraints = ARENA_ARRAY(reader->arena, 2 * count + count_points(couplings), struct constraint);
-    struct coupling_name *names = ARENA_ARRAY(reader->arena, count, struct coupling_name);
-    if (!scene->force_couplings || !scene->constraints || !names) return false;
-    bool fine = read_list(reader, couplings, false, names);
-    if (!read_list(reader, contacts, true, names + first)) fine = false;
-    if (!stops_read(reader, names + count - stops)) fine = false;
-    if (!fine || !couplings_name(reader, names, count)) return false;
+    size_t load = 0, constraint = 0;
+    if (!couplings_name(reader, names, count)) return false;
     for (size_t i = 0; i < count; i++) {
         bool force = names[i].kind->value < coupling_constraint;
         if (force)
-            scene->force_couplings[load++].load.name = names[i].name;
+            reader->scene->force_couplings[load++].load.name = names[i].name;
         else
             constraint = name_constraint(reader, constraint, names[i].name);
     }
     return points_have_own_names(reader);
+}
+
+bool couplings_read(struct reader *reader, const struct node *couplings, const struct node *contacts)
+{
+    struct scene *scene = reader->scene;
+    struct contact_pairs pairs = {0};
+    size_t first = couplings ? couplings->count : 0, stops = stops_count(reader), most;
+    if (!contact_pairs_count(reader, contacts, &most)) return false;
+    const size_t room = first + most + stops;
+    scene->force_couplings = ARENA_ARRAY(reader->arena, room, struct force_coupling);
+    scene->constraints = ARENA_ARRAY(reader->arena, 2 * room + count_points(couplings), struct constraint);
+    pairs.pairs = ARENA_ARRAY(reader->arena, most, struct contact_pair);
+    struct coupling_name *names = ARENA_ARRAY(reader->arena, room, struct coupling_name);
+    if (!scene->force_couplings || !scene->constraints || !pairs.pairs || !names) return false;
+    bool fine = read_list(reader, couplings, names);
+    if (!contact_pairs_list(reader, contacts, &pairs)) fine = false;
+    if (!read_pairs(reader, &pairs, names + first)) fine = false;
+    if (!stops_read(reader, names + first + pairs.count)) fine = false;
+    return fine && name_all(reader, names, first + pairs.count + stops);
 }

@@ -74,7 +74,6 @@ static bool apply_overrides(struct reader *reader, const struct override *overri
         struct definition *definition =
             parameters_find(reader, overrides[i].name, &index) ? &reader->definitions[index] : NULL;
         struct table_draft *table = find_table(reader, overrides[i].name);
-        if (overrides[i].as_time) reader->time = &overrides[i];
         if (table) {
             table->override = overrides[i].value ? &overrides[i] : NULL;
             table->varies = !overrides[i].value;

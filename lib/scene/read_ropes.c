@@ -105,6 +105,12 @@ static bool set_length(struct reader *reader, const struct value *length, struct
 {
     const int *slots;
     if (!length->expr) return true;
+    if (length->by_input) {
+        diag_add(reader->errors, FBD_ERROR, "not-here", length->at,
+                 "let a force or a spring follow the input",
+                 "the `length` of a rope cannot name an input: its ends would jump with it");
+        return false;
+    }
     if (expr_is_constant(length->expr)) {
         constraint->length = expr_value(length->expr);
         constraint->length_given = true;

@@ -51,7 +51,7 @@ struct table_draft {
 
 /* Reader's data of a user state, beside its entry in the scene. */
 struct own_draft {
-    const struct node *node, *rate, *initial, *unit;
+    const struct node *rate, *initial, *unit;
     enum progress progress; /* of its dimension */
     double factor;          /* of its unit */
     const struct expr *start;
@@ -128,11 +128,10 @@ struct reader {
     struct arena *exprs;            /* memory of expressions: `arena`, unless they are recorded */
     struct arena *derived;          /* memory of expressions derived from others */
     const struct override *outside; /* override whose value is being read, or NULL */
-    bool names_varying;          /* the expression depends on a varying value; `varies` includes slots, too */
-    bool varies;                 /* the expression being compiled is valid for this reading only */
-    bool names_parameters;       /* the table or definition being read names a parameter or gravity */
-    bool names_input;            /* the expression that is compiled names an input */
-    const struct override *time; /* of the input that replaces the time, or NULL */
+    bool names_varying;    /* the expression depends on a varying value; `varies` includes slots, too */
+    bool varies;           /* the expression being compiled is valid for this reading only */
+    bool names_parameters; /* the table or definition being read names a parameter or gravity */
+    bool names_input;      /* the expression that is compiled names an input */
 
     int inside; /* the body whose block is being read, or ground_body */
     struct names constant_names;

@@ -22,15 +22,14 @@ void record_compiled(const struct reader *reader, const struct node *node, const
                       .varies = reader->names_varying || (from_outside && reader->outside->varies)};
 }
 
-void record_site(const struct reader *reader, const struct expr *expr, unsigned flags,
-                 const struct expr_want *want, const struct names *names)
+void record_site(const struct reader *reader, const struct expr *expr, const struct expr_want *want,
+                 const struct names *names)
 {
     struct record *record = reader->record;
     struct site *site = record->count ? &record->sites[record->count - 1] : NULL;
     if (!site || site->expr != expr) return; /* compiled in an earlier reading, so it does not vary */
     site->patched = !names->slip_named && !names->distance_named && !names->along;
     site->constants = names == &reader->constant_names;
-    site->flags = flags;
     site->want = *want;
     site->names = *names;
     site->names.known = NULL;

@@ -16,7 +16,6 @@ struct site {
     bool varies;    /* depends on a varying name */
     bool patched;   /* may be replaced by another value */
     bool constants; /* its scope has constants only */
-    unsigned flags;
     struct expr_want want;
     struct names names;
 };
@@ -33,7 +32,7 @@ struct record {
 void record_compiled(const struct reader *reader, const struct node *node, const struct expr *expr);
 
 /* Mark the expression recorded last as a constant or formula of a `stored` field. */
-void record_site(const struct reader *reader, const struct expr *expr, unsigned flags,
-                 const struct expr_want *want, const struct names *names);
+void record_site(const struct reader *reader, const struct expr *expr, const struct expr_want *want,
+                 const struct names *names);
 
 #endif

@@ -306,9 +306,7 @@ static inline bool scene_holds_inputs(const struct scene *scene)
 /* A parameter set from outside, as text: `--set f1=50 N`; of a table the file: `--set road=b.csv`. */
 struct override {
     const char *name;
-    const char *value; /* NULL: value of the file, which may differ in other readings */
-    bool as_time;      /* the input replaces the time (also in derivatives), which is the constant `now` */
-    double now;
+    const char *value;      /* NULL: value of the file, which may differ in other readings */
     bool varies;            /* its value will change in the next reading (patch.h) */
     struct input_call call; /* where an input gets its value instead */
 };

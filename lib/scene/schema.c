@@ -96,6 +96,7 @@ static const char *name_of(const struct group *group)
            : group == &event_group    ? "event"
            : group == &hand_group     ? "hand"
            : group == &inertia_group  ? "inertia"
+           : group == &contact_group  ? "contact"
                                       : NULL;
 }
 

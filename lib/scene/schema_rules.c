@@ -21,6 +21,7 @@ static const struct {
     {"moment_friction", "coefficient static kinetic bearing+radius"},
     {"coupling_actuator", "moment force"},
     {"coupling_plane_friction", "static kinetic"},
+    {"contact", "between among"},
     {"rod", "length from+to"},
     {"sphere", "radius"},
     {"cylinder", "radius"},
@@ -76,6 +77,7 @@ static const struct {
     {"coupling_actuator", "moment+force moment+along"},
     {"coupling_gear", "efficiency+from"},
     {"coupling_plane_friction", "at+points"},
+    {"contact", "among+between among+side among+surface_speed"},
     {"force_thrust", "exhaust+velocity velocity+angle velocity+frame"},
     {"force_friction", "coefficient+static coefficient+kinetic"},
     {"moment_friction", "coefficient+static coefficient+kinetic bearing+static bearing+kinetic "

@@ -170,7 +170,7 @@ static const struct expr *compile(struct reader *reader, const struct node *node
                                    .any_dim = quantity == a_parameter,
                                    .what = what};
     const struct expr *expr = value_compile(reader, node, &want, scope);
-    if (expr && reader->record && (flags & stored)) record_site(reader, expr, flags, &want, scope->context);
+    if (expr && reader->record && (flags & stored)) record_site(reader, expr, &want, scope->context);
     return expr;
 }
 

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "model/outline.h"
+#include "numeric/tolerances.h"
 #include "section/loads.h"
 
 static bool refuse(struct section_work *work, const char *hint, const char *format)
@@ -27,7 +28,8 @@ static bool find_middle(const struct outline_part *shape, struct middle *middle)
     *middle = first ? (struct middle){vec_scale(0.5, vec_add(a, d)), vec_scale(0.5, vec_add(b, c))}
                     : (struct middle){vec_scale(0.5, vec_add(a, b)), vec_scale(0.5, vec_add(d, c))};
     const struct vec along = vec_sub(middle->to, middle->from);
-    if (along.x < -1e-9 * vec_norm(along) || (fabs(along.x) <= 1e-9 * vec_norm(along) && along.y < 0))
+    if (along.x < -nine_digits * vec_norm(along) ||
+        (fabs(along.x) <= nine_digits * vec_norm(along) && along.y < 0))
         *middle = (struct middle){middle->to, middle->from}; /* with the x axis of the body */
     return true;
 }
@@ -48,7 +50,7 @@ static bool choose_axis(struct section_work *work)
                           "`%s` has a moment of inertia, but no distribution of its mass");
         if (!find_middle(&shape, &middle)) continue;
         const double length = vec_norm(vec_sub(middle.to, middle.from));
-        if (!(length > longest * (1 + 1e-9))) continue;
+        if (!(length > longest * (1 + nine_digits))) continue;
         longest = length;
         axis = middle;
     }
@@ -78,7 +80,7 @@ static bool add_bar(struct section_work *work, const struct part *part)
     struct middle middle;
     if (!find_middle(&shape, &middle)) return true;
     const struct vec a = in_axis(section, middle.from), b = in_axis(section, middle.to);
-    const double length = vec_norm(vec_sub(b, a)), near = 1e-9 * section->length;
+    const double length = vec_norm(vec_sub(b, a)), near = nine_digits * section->length;
     if (fabs(a.y) > near || fabs(b.y) > near) return false;
     const double slender = inertia.mass * length * length / 12;
     const double excess = shape.kind == outline_bar ? 0 : inertia.I_G - slender;
@@ -98,6 +100,7 @@ static void extend_axis(struct section_work *work)
     }
     section->origin = vec_add(section->origin, vec_scale(low, section->e));
     section->length = high - low;
+    section->near = negligible_part * (section->length + vec_norm(section->origin));
     for (size_t i = 0; i < work->bar_count; i++) {
         work->bars[i].from -= low;
         work->bars[i].to -= low;

@@ -6,6 +6,7 @@
 
 #include "dynamics/mass.h"
 #include "model/outline.h"
+#include "numeric/tolerances.h"
 #include "section/spread.h"
 
 /* ---- axes */
@@ -99,7 +100,7 @@ static bool place_couple(const struct section_work *work, size_t i, struct vec *
         *p = placed(work, work->body->pin);
         return true;
     }
-    return arrow_is_reaction(model, arrow) || vec_norm(vec_sub(*p, G)) > 1e-9 * work->section->length;
+    return arrow_is_reaction(model, arrow) || vec_norm(vec_sub(*p, G)) > nine_digits * work->section->length;
 }
 
 /* The place in the file of a force, or of the body. */
@@ -145,7 +146,7 @@ static bool add_spread(struct section_work *work, size_t i)
     const struct spread *spread = spread_of(work, i);
     if (!spread) return false;
     const struct vec a = placed(work, spread->from), b = placed(work, spread->to);
-    if (fabs(b.x - a.x) <= 1e-6 * spread->length) return false;
+    if (fabs(b.x - a.x) <= six_digits * spread->length) return false;
     const struct vec f = turned(work, work->arrows[i].force);
     double ends[spread_most_ends];
     const size_t count = spread_ends(spread, ends);
@@ -162,7 +163,7 @@ static bool stays_within(struct section_work *work, size_t i)
 {
     const struct spread *spread = spread_of(work, i);
     if (!spread) return true;
-    const double near = 1e-9 * work->section->length, last = work->section->length + near;
+    const double near = nine_digits * work->section->length, last = work->section->length + near;
     const double a = placed(work, spread->from).x, b = placed(work, spread->to).x;
     if (fmin(a, b) >= -near && fmax(a, b) <= last) return true;
     diag_add(work->errors, FBD_ERROR, "no-section", pos_of(work, i),

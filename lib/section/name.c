@@ -100,13 +100,14 @@ static double refuse_place(const fbd_section *section, double x, struct pos at, 
 /* The place on the body, at an end or a load where it differs by rounding. */
 static double within(const fbd_section *section, double x, struct pos at, fbd_errors *errors)
 {
-    const double near = 1e-11 * section->length;
     if (isnan(x)) return NAN;
-    if (x < -near || x > section->length + near) return refuse_place(section, x, at, errors);
-    return section_snap(section, fmin(fmax(x, 0), section->length));
+    if (x < -section->near || x > section->length + section->near)
+        return refuse_place(section, x, at, errors);
+    return section_snap(section, x);
 }
 
-double section_place(const fbd_section *section, const char *text, fbd_errors *errors)
+/* The distance of a named point or a length, on the body or not; NAN with a note. */
+static double distance_of(const fbd_section *section, const char *text, fbd_errors *errors)
 {
     const struct named_point *point = point_named(section->body->source, text);
     if (point && parameter_named(section->model->scene, text)) {
@@ -115,9 +116,13 @@ double section_place(const fbd_section *section, const char *text, fbd_errors *e
                  "`%s` is a point of `%s` and a parameter", text, section->body->name);
         return NAN;
     }
-    double x = point ? vec_dot(section->e, vec_sub(point->where, section->origin))
-                     : length_of(section, text, errors);
-    return within(section, x, (struct pos){0, 0}, errors);
+    return point ? vec_dot(section->e, vec_sub(point->where, section->origin))
+                 : length_of(section, text, errors);
+}
+
+double section_place(const fbd_section *section, const char *text, fbd_errors *errors)
+{
+    return within(section, distance_of(section, text, errors), (struct pos){0, 0}, errors);
 }
 
 /* ---- names */
@@ -168,11 +173,12 @@ bool section_exists(const struct fbd_model *model, int body, double x, struct po
     return exists;
 }
 
+/* Is the place one that can be evaluated? Whether it is on the body depends on the parameters. */
 static bool names_place(const struct fbd_model *model, const struct section_name *name, fbd_errors *errors)
 {
     fbd_section section;
-    const bool fine = find_axis(model, name->body, &section, errors) &&
-                      !isnan(section_place(&section, name->place, errors));
+    const bool fine =
+        find_axis(model, name->body, &section, errors) && !isnan(distance_of(&section, name->place, errors));
     arena_free(&section.arena);
     return fine;
 }

@@ -26,8 +26,9 @@ struct section_name {
 /* Has the text the form of such a name? */
 bool section_is_name(const char *text);
 
-/* Read it; false with a note: `bad-place`, `unknown-body`, `no-section` for a body that is not straight. Texts are in the
- * arena. */
+/* Read it; false with a note: `bad-place`, `unknown-body`, `no-section` for a body that is not straight, or those of an
+ * expression. A place beyond the ends is refused where its value is asked for, since both depend on the parameters. Texts are
+ * in the arena. */
 bool section_name_read(const struct fbd_model *model, struct arena *arena, const char *text,
                        struct section_name *name, fbd_errors *errors);
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "numeric/tolerances.h"
 #include "section/loads.h"
 #include "section/name.h"
 
@@ -25,16 +26,16 @@ static int compare_loads(const void *a, const void *b)
 static void sort_places(struct section_work *work)
 {
     fbd_section *section = work->section;
-    const double near = 1e-11 * section->length;
     size_t count = 1;
     qsort(work->places, work->place_count, sizeof *work->places, compare_places);
     for (size_t i = 1; i < work->place_count; i++)
-        if (work->places[i] > work->places[count - 1] + near) work->places[count++] = work->places[i];
+        if (work->places[i] > work->places[count - 1] + section->near)
+            work->places[count++] = work->places[i];
     work->place_count = count;
     work->places[count - 1] = count > 1 ? section->length : 0;
     for (size_t i = 0; i < section->load_count; i++)
         for (size_t k = 0; k < count; k++)
-            if (fabs(section->loads[i].x - work->places[k]) <= 2 * near)
+            if (fabs(section->loads[i].x - work->places[k]) <= 2 * section->near)
                 section->loads[i].x = work->places[k];
     qsort(section->loads, section->load_count, sizeof *section->loads, compare_loads);
 }
@@ -80,7 +81,6 @@ static double sample_at(double t, void *context)
  * cancel, as weight and inertia do. */
 static bool is_met(struct sample *sample, const struct polynomial *fitted)
 {
-    const double enough = 1e-12;
     const fbd_section *section = sample->work->section;
     const double size = section->size[sample->which == 2 ? section_M : section_N] / section->length;
     double off = 0;
@@ -88,7 +88,7 @@ static bool is_met(struct sample *sample, const struct polynomial *fitted)
         const double t = i / 10.5;
         off = fmax(off, fabs(polynomial_at(fitted, t) - sample_at(t, sample)));
     }
-    return off <= enough * size;
+    return off <= negligible_sum * size;
 }
 
 /* Add the stretch, in halves where its densities are no polynomials; false when it takes too many, or memory is out. */
@@ -108,7 +108,7 @@ static bool add_pieces(struct section_work *work, double from, double to)
     piece->to = to;
     section->piece_count += met;
     const double middle = from + (to - from) / 2;
-    if (met || !(to - from > 1e-9 * section->length)) return met;
+    if (met || !(to - from > nine_digits * section->length)) return met;
     return add_pieces(work, from, middle) && add_pieces(work, middle, to);
 }
 
@@ -161,8 +161,8 @@ static void integrate(fbd_section *section, double values[section_forces])
 /* Beyond the end nothing is left. */
 static bool closes(struct section_work *work)
 {
-    const double enough =
-        work->section->at_rest ? 4e-6 : 1e-8; /* at rest: as a file with six digits is in equilibrium */
+    /* at rest: a file with six digits in its positions and forces is in equilibrium */
+    const double enough = work->section->at_rest ? 2 * six_digits : undecided_part;
     fbd_section *section = work->section;
     double left[section_forces];
     integrate(section, left);
@@ -223,24 +223,23 @@ void fbd_section_free(fbd_section *section)
 
 double section_snap(const fbd_section *section, double x)
 {
-    const double near = 1e-12 * section->length;
     for (size_t i = 0; i < section->piece_count; i++) {
         const struct section_piece *piece = &section->pieces[i];
-        if (fabs(x - piece->from) <= near) return piece->from;
-        if (fabs(x - piece->to) <= near) return piece->to;
+        if (fabs(x - piece->from) <= section->near) return piece->from;
+        if (fabs(x - piece->to) <= section->near) return piece->to;
     }
     return x;
 }
 
 double section_rounded(const fbd_section *section, enum section_force force, double value)
 {
-    return fabs(value) <= 1e-11 * section->size[force] ? 0 : value;
+    return fabs(value) <= solved_rounding * section->size[force] ? 0 : value;
 }
 
 fbd_cut fbd_section_at(const fbd_section *section, double x, bool behind)
 {
-    fbd_cut cut = {x, NAN, NAN, NAN};
-    if (!section || !(x >= 0 && x <= section->length)) return cut;
+    if (section) x = section_snap(section, x);
+    if (!section || !(x >= 0 && x <= section->length)) return (fbd_cut){x, NAN, NAN, NAN};
     size_t i = 0;
     while (i + 1 < section->piece_count &&
            (section->pieces[i].to < x || (behind && section->pieces[i].to == x)))
@@ -257,6 +256,7 @@ fbd_cut fbd_section_at(const fbd_section *section, double x, bool behind)
 
 double section_force_at(const fbd_section *section, enum section_force force, double x, bool behind)
 {
+    x = section_snap(section, x);
     const fbd_cut cut = fbd_section_at(section, x, x == 0 || (behind && x < section->length));
     return force == section_N ? cut.N : force == section_V ? cut.V : cut.M;
 }

@@ -51,10 +51,10 @@ struct fbd_section {
     bool at_rest;
     double t, length;
     struct vec origin, e; /* of the axis, in the frame of the body */
+    double near; /* places that differ by less are one [length]: round-off of the length and of the origin */
     size_t load_count, piece_count, piece_room, lump_count;
     struct section_load *loads;
     struct section_piece *pieces;
-    const char **lumps;          /* parts that count as concentrated at their centres */
     double size[section_forces]; /* sums of the magnitudes of all loads, for rounding */
     fbd_section_extreme extremes[section_forces][2];
 };
@@ -64,13 +64,14 @@ struct fbd_section {
  * `no-balance`, or memory is out. */
 fbd_section *section_new(const struct fbd_state *state, bool at_rest, int body, fbd_errors *errors);
 
-/* An end of a piece where x is one but for rounding. */
+/* The end of a piece that is within `near` of x; else x. */
 double section_snap(const fbd_section *section, double x);
 
-/* One of them at x, where it jumps before x or `behind` it; at the ends of the body within it. NAN outside. */
+/* One of them at x, where it jumps before x or `behind` it; at the ends of the body within it. NAN outside, beyond
+ * `near`. */
 double section_force_at(const fbd_section *section, enum section_force force, double x, bool behind);
 
-/* A value at round-off level is 0. */
+/* A value at the round-off level of the reactions is 0. */
 double section_rounded(const fbd_section *section, enum section_force force, double value);
 
 #endif

@@ -68,10 +68,15 @@ static struct cell next_cell(struct csv *csv)
     return (struct cell){start, arena_text(csv->arena, start, (size_t)(stop - start)), last};
 }
 
+/* Begin the next line that is no comment. */
 static void begin_line(struct csv *csv)
 {
-    csv->line_start = csv->next;
     csv->line++;
+    for (; csv->next < csv->end && *csv->next == '#'; csv->line++) {
+        const char *stop = memchr(csv->next, '\n', (size_t)(csv->end - csv->next));
+        csv->next = stop ? stop + 1 : csv->end;
+    }
+    csv->line_start = csv->next;
 }
 
 /* ---- the header */

@@ -33,7 +33,7 @@ MOST_ROWS = 1000
 
 INSTRUCTIONS = """fbd simulates planar rigid bodies from a model text in YAML: free-body diagrams that run. Read the tool `language` \
 before you write a model, and `example` for models to start from. Then `check` the model: each note has a line, a column and often a `fix`. \
-Numbers come from `run`, `equations`, `statics`, `linearize` and `sweep`; a derivation by hand is compared with the equations by \
+Numbers come from `run`, `equations`, `statics`, `linearize`, `sweep` and `find`; a derivation by hand is compared with the equations by \
 `check_derivation`. Units: write them with every number (`2 kg`, `30 deg`)."""
 
 # ---- arguments
@@ -212,8 +212,9 @@ class Tools:
                     raise ValueError(f"`{value}` is no file below the folder of --root")
 
     def find(self, arguments: Json) -> Answer:
-        found = getattr(self.model(arguments), "find")(**arguments.get("arguments", {}))
-        return str(found), {"text": str(found)}
+        options = pick(arguments, "statics", "runs", "until", "tolerance", "method", "step")
+        found = self.model(arguments).find(arguments["question"], **options)
+        return str(found), json.loads(found.json())
 
 
 def tool(name: str, description: str, properties: Json, *required: str) -> Json:
@@ -223,7 +224,7 @@ def tool(name: str, description: str, properties: Json, *required: str) -> Json:
 
 def tools() -> List[Json]:
     """The tools as tools/list has them."""
-    listed = [
+    return [
         tool("language", "The model language in 4,000 words. Read it before writing a model.", {}),
         tool("example", "Models to start from: their names, or the text of one.", {"name": {**TEXT, "description": "as listed"}}),
         tool("check", "All errors and warnings of a model and its start, with line, column, hint and, where it is known, a fix as an edit.",
@@ -261,11 +262,12 @@ def tools() -> List[Json]:
               "outputs": {**TEXTS, "description": '["block.x", "max(block.v)", "time(stick)"]'},
               "zip": {**FLAG, "description": "values side by side instead of every combination"}, "seed": {"type": "integer"}},
              "model", "vary"),
+        tool("find", "The values of a parameter at which something slips, tips, lifts, or has a given result; with an error of each.",
+             {**MODEL, **pick(RUN, "until", "tolerance", "method", "step"),
+              "question": {**TEXT, "description": '"P = 0..40 N: crate tips", "F: block.x = 0.5 m"; without a range, that of the file'},
+              "statics": {**FLAG, "description": "of the scene at rest at its start"},
+              "runs": {"type": "integer", "description": "of the first scan; default 33"}}, "model", "question"),
     ]
-    if hasattr(Model, "find"):
-        doc = (getattr(Model, "find").__doc__ or "Find values of parameters.").strip()
-        listed.append(tool("find", doc, {**MODEL, "arguments": {"type": "object", "description": "keywords of fbd.Model.find"}}, "model"))
-    return listed
 
 
 # ---- the server

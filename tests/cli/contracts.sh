@@ -134,4 +134,12 @@ run --csv fine.csv --every 0.001 --ledger "$incline"
 check 'the output interval and the ledger change nothing' \
     sh -c '[ "$(tail -1 coarse.csv)" = "$(tail -1 fine.csv | cut -d, -f1-3)" ]'
 check 'a comma locale changes nothing' sh -c 'LC_ALL=de_DE.UTF-8 "$FBD_RUN" --csv - --every 1 "$0" | cmp - coarse.csv' "$incline"
+
+# ---- the origin of a CSV
+run --csv traced.csv --origin --every 1 --set phi='20 deg' "$incline"
+check 'the comment lines of --origin have the version, the hash of the model and the parameters' \
+    sh -c 'sha256sum "$0" | cut -d" " -f1 | grep -qF -f - traced.csv && grep -qx "# fbd [0-9.]*" traced.csv && grep -q "^# parameters: phi = 0.349[0-9]*, f1 = 5 N" traced.csv' "$incline"
+run --csv plain.csv --every 1 --set phi='20 deg' "$incline"
+check 'the lines behind them are the same' sh -c 'grep -v "^#" traced.csv | cmp - plain.csv'
+check 'without a CSV --origin is refused' exits 2 run --origin "$incline"
 finish

@@ -82,4 +82,9 @@ check '--parameters goes with --fit' exits 2 run --parameters c pendulum.yaml
 check '--until does not' exits 2 run --fit angle.csv --until 2 pendulum.yaml
 check '--find neither' exits 2 run --fit angle.csv --find 'c = 0..1' pendulum.yaml
 
+
+{ sed -n 1p angle.csv; echo '# the pendulum of the second bench'; sed 1d angle.csv; echo '# end'; } | sed '1i # measured, not computed' >commented.csv
+"$FBD_RUN" --fit angle.csv --parameters L --json - pendulum.yaml >plain.json
+check 'comment lines of the data are passed over' \
+    sh -c '"$FBD_RUN" --fit commented.csv --parameters L --json - pendulum.yaml | sed s/commented.csv/angle.csv/ | cmp - plain.json'
 finish

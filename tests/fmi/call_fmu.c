@@ -1,55 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
  * Usage: call_fmu VERSION BINARY RESOURCES TOKEN UNTIL STEPS VARIABLES [INPUT]
- * An importer that loads the binary of an FMU: co-simulation by FMI 2 or 3, in equal steps, with an input that varies,
- * by its reference. Prints the values of the first variables at each communication point, and what the FMU logs. The
- * same source for all systems: LOAD and FIND are their functions that load a library and find a symbol
- * (tests/tools/check_windows_fmu).
+ * Co-simulation in equal steps, with an input that varies, by its reference. Prints the values of the first variables at each
+ * communication point, and what the FMU logs.
  */
-#include "fmi/fmi2.h"
-#include "fmi/fmi3.h"
-
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-enum { most_variables = 200 };
-
-static void log_2(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status,
-                  fmi2String category, fmi2String message, ...)
-{
-    va_list arguments;
-    (void)environment, (void)name;
-    printf("%d %s ", (int)status, category);
-    va_start(arguments, message);
-    vprintf(message, arguments);
-    va_end(arguments);
-    printf("\n");
-}
-
-static void log_3(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category,
-                  fmi3String message)
-{
-    (void)environment;
-    printf("%d %s %s\n", (int)status, category, message);
-}
-
-/* The functions of both versions as those of this importer. */
-struct importer {
-    void *library, *instance;
-    const char *resources, *token;
-    double until;
-};
-
-static void *find(struct importer *importer, const char *name)
-{
-    void *function = (void *)FIND(importer->library, name);
-    if (!function) printf("no function %s\n", name), exit(1);
-    return function;
-}
-
-#define FUNCTION(name) (__extension__((__typeof__(name) *)find(importer, #name)))
+#include "importer.h"
 
 static int start_2(struct importer *importer)
 {
@@ -79,24 +34,6 @@ static int step(struct importer *importer, int version, double t, double h)
     return version == 2 ? (int)FUNCTION(fmi2DoStep)(importer->instance, t, h, fmi2True)
                         : (int)FUNCTION(fmi3DoStep)(importer->instance, t, h, true, &event, &terminate,
                                                     &early, &reached);
-}
-
-static int set(struct importer *importer, int version, unsigned input, double value)
-{
-    return version == 2 ? (int)FUNCTION(fmi2SetReal)(importer->instance, &input, 1, &value)
-                        : (int)FUNCTION(fmi3SetFloat64)(importer->instance, &input, 1, &value, 1);
-}
-
-static int show(struct importer *importer, int version, size_t count)
-{
-    unsigned references[most_variables];
-    double values[most_variables];
-    for (unsigned i = 0; i < count; i++) references[i] = i;
-    const int status =
-        version == 2 ? (int)FUNCTION(fmi2GetReal)(importer->instance, references, count, values)
-                     : (int)FUNCTION(fmi3GetFloat64)(importer->instance, references, count, values, count);
-    for (size_t i = 0; i < count; i++) printf("%.17g%c", values[i], i + 1 < count ? ' ' : '\n');
-    return status;
 }
 
 int main(int count, char **words)

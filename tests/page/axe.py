@@ -32,6 +32,16 @@ choice.dispatchEvent(new Event('change'));
 """
 
 
+# Of a live page also the verdict on its derivations.
+CHECK = """
+const button = document.getElementById('live-hand');
+if (!button) return;
+while (!(bench.shown > 0)) await new Promise((done) => setTimeout(done, 20));
+button.click();
+while (element('live-checked').textContent === phrase('live-checking')) await new Promise((done) => setTimeout(done, 20));
+"""
+
+
 def written(path, *arguments):
     """The page, if this fbd-run can write it."""
     run(*arguments, code=None)
@@ -59,6 +69,7 @@ def look(browser, path, dark):
     found = set()
     browser.dark_mode(dark)
     browser.open(path)
+    browser.run(CHECK)
     browser.run(AXE)
     for language in browser.run(LANGUAGES) or [""]:
         if language:

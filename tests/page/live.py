@@ -33,9 +33,9 @@ UNDECIDED = {"cradle"}
 SLOW = {"million_revolutions", "long_pendulum"}  # minutes in a browser on a busy machine
 
 WORKER = """
-    const asked = arguments[0], asker = makeAsker(() => {});
-    const answer = await new Promise((done) => asker.ask(asked, [bench.own, parts.name, ""], done));
-    asker.worker.terminate();
+    const asked = arguments[0], client = makeClient(() => {});
+    const answer = await new Promise((done) => client.request(asked, [bench.own, parts.name, ""], done));
+    client.worker.terminate();
     return answer;"""
 
 
@@ -133,6 +133,11 @@ def check_sliders(browser, folder):
         names = browser.run("return [...document.querySelectorAll('#live .knob')].map((row) => row.firstChild.textContent + ' ' + row.lastChild.value)")
         for name in ("phi 30 deg", "mu_s 0.5", "v0 3 m/s", "block.x 0 m", "block.v v0", "until 3 s"):
             assert name in names, (name, names)
+    with claim("every control is 24 pixels high at least, also where it is folded away"):
+        small = browser.run("for (const part of document.querySelectorAll('details')) part.open = true; "
+                            "return [...document.querySelectorAll('button, select, input, summary')].map((node) => [node.id || node.ariaLabel || node.textContent, "
+                            "node.getBoundingClientRect().height]).filter(([, height]) => height > 0 && height < 24);")
+        assert not small, small
     with claim("a slider that is dragged by the mouse runs the model anew, and writes into its text"):
         box = browser.run(SLIDER.format("phi") + "slider.scrollIntoView(); const r = slider.getBoundingClientRect(); return [r.left, r.top, r.width, r.height];")
         before = browser.run("return bench.shown")
@@ -427,12 +432,45 @@ def check_wrong(browser, folder):
         browser.run("element('live-says').textContent = ''; element('live-note').click()")
         wait_for(browser, "element('live-says').textContent.includes('`slid`')")
         settled(browser, "setModel(bench.own, [])")
-    with claim("derivations by hand are compared in the page as by --check-hand: these agree, with another sign they do not"):
-        answer = json.loads(browser.run(WORKER, "check_hand"))
-        assert answer["errors"] == [] and answer["hand"]["differing"] == 0, answer
-        hand = browser.run("return bench.own.match(/m\\*v_dot.*/)[0]")
-        browser.run("bench.own = bench.own.replace(arguments[0], arguments[0].replace('= ', '= -'))", hand)
-        assert json.loads(browser.run(WORKER, "check_hand"))["hand"]["differing"] > 0
+    verdict = "[element('live-checked').textContent, [...document.querySelectorAll('#live-verdict li')].map((item) => [item.className, item.innerText])]"
+    with claim("a button compares the derivations in the editor with the assembled equations, as --check-hand"):
+        browser.run("element('live-hand').click()")
+        wait_for(browser, "document.querySelector('#live-verdict li')")
+        said, lines = browser.run(f"return {verdict}")
+        assert said == f"{len(lines)} of {len(lines)} equations agree" and all(kind == "right" for kind, _ in lines), (said, lines)
+        text = run("--check-hand", INCLINE)
+        assert all(" ".join(line.split()) in " ".join(text.split()) for _, item in lines for line in item.removeprefix("✓ ").splitlines()), (lines, text)
+    with claim("with another sign it names the equation and its term; the verdict of an earlier text is marked"):
+        settled(browser, "setEditor(bench.own.replace(/(m\\*v_dot.*?= )/, '$1-')); editor.dispatchEvent(new Event('input'))")
+        assert not browser.run("return element('live-earlier').hidden")
+        browser.run("element('live-hand').click()")
+        wait_for(browser, "document.querySelector('#live-verdict .wrong')")
+        said, lines = browser.run(f"return {verdict}")
+        assert browser.run("return element('live-earlier').hidden")
+        assert [kind for kind, _ in lines].count("wrong") == 1 and said.startswith(f"{len(lines) - 1} of {len(lines)} "), (said, lines)
+        assert "has the wrong sign" in next(text for kind, text in lines if kind == "wrong"), lines
+        settled(browser, "setModel(bench.own, [])")
+    with claim("an equation whose sides have different dimensions is reported at its place"):
+        settled(browser, "setEditor(bench.own.replace(/m\\*v_dot/, 'm*vv_dot')); editor.dispatchEvent(new Event('input'))")
+        browser.run("element('live-hand').click()")
+        wait_for(browser, "document.querySelector('#live-verdict button')")
+        assert "the left side is power" in browser.run("return element('live-verdict').innerText")
+        settled(browser, "setModel(bench.own, [])")
+    with claim("an answer is graded by the text of the editor, as by --grade"):
+        assert browser.run("return element('live-grade').hidden")
+        key, answer = folder / "key.yaml", folder / "anna.yaml"
+        key.write_text("grading: {reactions: none}\n" + INCLINE.read_text(encoding="utf-8"), encoding="utf-8")
+        answer.write_text(INCLINE.read_text(encoding="utf-8").replace("      - gravity\n", "", 1), encoding="utf-8")
+        settled(browser, "setEditor(arguments[0]); editor.dispatchEvent(new Event('input'))", key.read_text(encoding="utf-8"))
+        assert not browser.run("return element('live-grade').hidden")
+        browser.run("const files = new DataTransfer(); files.items.add(new File([arguments[0]], 'anna.yaml')); element('live-answer').files = files.files; "
+                    "element('live-answer').dispatchEvent(new Event('change'))", answer.read_text(encoding="utf-8"))
+        wait_for(browser, "document.querySelector('#live-verdict li')")
+        said, lines = browser.run(f"return {verdict}")
+        want = run("--grade", key, answer, code=4).splitlines()[0]
+        assert want.startswith(said), (said, want, lines)
+        assert "wrong" in [kind for kind, _ in lines]
+        settled(browser, "setModel(bench.own, [])")
     with claim("the page is quiet and asks for nothing"):
         is_quiet(browser, path)
 
@@ -457,7 +495,7 @@ def check_effects(browser, folder):
         settled(browser, "setModel(bench.own, [])")
         wait_for(browser, "location.hash === ''")
         open_live(browser, path, fragment)
-        wait_for(browser, "bench.off.has('block.friction')")
+        wait_for(browser, "bench.off.has('block.friction') && bench.runFor === editor.value + offNames()")
         assert not browser.run("return run.columns.some((column) => column.n === 'block.friction')")
     with claim("switched on again, it is there"):
         settled(browser, "document.querySelector('[data-effect=\"block.friction\"]').click()")
@@ -521,15 +559,15 @@ def check_speed(browser, folder):
                   while (wait()) await new Promise((done) => setTimeout(done, 0));
                   plots.push(performance.now() - start);
                 }
-                const asker = makeAsker(() => {}), question = [editor.value, parts.name, ""];
+                const client = makeClient(() => {}), question = [editor.value, parts.name, ""];
                 for (let i = 0; i < 24; i++) {
                   const start = performance.now();
-                  const [, answer] = await new Promise((done) => asker.ask("both", question, done, [rowsUnderWay])), asked = performance.now();
+                  const [, answer] = await new Promise((done) => client.request("both", question, done, [rowsUnderWay])), asked = performance.now();
                   showAgain(JSON.parse(answer).data);
                   running.push(asked - start);
                   drawing.push(performance.now() - asked);
                 }
-                asker.worker.terminate();
+                client.worker.terminate();
                 return [whole, plots, running, drawing].map((list) => list.sort((a, b) => a - b));""", name)
             print(f"# {model.stem}: median {whole[len(whole) // 2]:.0f} ms, least {whole[0]:.0f} ms; of it the run {running[0]:.1f} ms, "
                   f"the scene {drawing[0]:.1f} ms at least; with all plots {plots[len(plots) // 2]:.0f} ms, {plots[0]:.0f} ms")

@@ -290,6 +290,47 @@ simulate: {until: 1 s}
 """
 
 
+RUNNING = """fbd: 1
+bodies:
+  drum: {shape: disc, mass: 5 kg, radius: 0.5 m, motion: pivot, forces: [gravity]}
+  disc: {shape: disc, mass: 1 kg, radius: 0.1 m, motion: planar, initial: {y: 0.6 m}, forces: [gravity]}
+  table: {shape: prism, mass: 4 kg, a: 2 m, b: 0.1 m, motion: {pivot: {at: [0, -1.5]}}, initial: {theta: 30 deg}}
+  cart:
+    mass: 1 kg
+    motion: {slide: {on: table, along: 0 deg, through: [0, 0.05 m]}}
+    forces: [gravity, normal, friction: {coefficient: 0.2, surface_speed: 0.5 m/s}]
+contacts: [{name: rim, between: [disc, drum], static: 0.4, kinetic: 0.3, surface_speed: -1.5 m/s}]
+simulate: {until: 0.5 s}
+"""
+
+
+def check_running(browser, folder):
+    """Surfaces of bodies that run."""
+    model, path = folder / "running.yaml", folder / "running.html"
+    model.write_text(RUNNING, encoding="utf-8")
+    run("--quiet", "--html", path, model)
+    browser.open(path)
+    arcs, arrows, drum, cart, turn, texts = browser.run("""
+        const arcs = [], arrows = [], old = [drawArc, plainArrow], t = 0.2;
+        drawArc = (at, radius, from, sweep, ...others) => { if (radius === 18) arcs.push([...at, sweep]); old[0](at, radius, from, sweep, ...others); };
+        plainArrow = (at, e, length, ...others) => { if (at[1] < view.height - 30) arrows.push([at[0] + length / 2 * e[0], at[1] + length / 2 * e[1], ...e]);
+          old[1](at, e, length, ...others); };
+        fbd.seek(t);
+        [drawArc, plainArrow] = old;
+        const frames = framesAt(t), [drum, , table, cart] = frames;
+        return [arcs, arrows, toScreen([drum.x, drum.y]), toScreen([cart.x, cart.y]), table.angle, drawn.labels.map(({ text }) => text)];""")
+    with claim("the surface of a drum that runs clockwise has an arc about its centre in that sense, with its speed"):
+        assert len(arcs) == 1 and arcs[0][2] < 0 and math.dist(arcs[0][:2], drum) < 1e-6 and "1.5 m/s" in texts, (arcs, drum, texts)
+    with claim("that of a slide on a body an arrow along the line, in the body below the one that slides"):
+        assert len(arrows) == 1 and "0.5 m/s" in texts, (arrows, texts)
+        x, y, ex, ey = arrows[0]
+        close(math.atan2(-ey, ex), turn, 1e-9)
+        close((x - cart[0]) * ex + (y - cart[1]) * ey, 0, 1e-6)
+        assert (x - cart[0]) * math.sin(turn) + (y - cart[1]) * math.cos(turn) > 0, (arrows, cart, turn)
+    with claim("the page of surfaces that run is quiet"):
+        page_is_quiet(browser, path)
+
+
 def check_guides(browser, folder):
     """Stops, springs about an axis and surfaces that run, in the frame of the body that carries them."""
     model, path = folder / "stops.yaml", folder / "stops.html"
@@ -467,7 +508,7 @@ def main():
             browser.open("/dev/null")
             browser.requests()  # those of the browser's first page
             browser.log("browser")
-            for check in (check_incline, check_pendulum, check_joined, check_couplings, check_guides, check_early_end, check_all,
+            for check in (check_incline, check_pendulum, check_joined, check_couplings, check_guides, check_running, check_early_end, check_all,
                           check_text_is_data, check_many, check_long):
                 check(browser, Path(name))
     except Missing as missing:

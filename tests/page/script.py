@@ -12,8 +12,9 @@ from claims import claim, finish
 from fbd import SOURCE
 
 PAGE = SOURCE / "lib/draw/page"
-LIVE = [SOURCE / "lib/live/page" / part for part in ("engine.js", "phrases.js", "knobs.js", "editor.js", "share.js", "values.js", "again.js", "grips.js", "pull.js", "hints.js",
+LIVE = [SOURCE / "lib/live/page" / part for part in ("engine.js", "phrases.js", "knobs.js", "editor.js", "share.js", "values.js", "check.js", "again.js", "grips.js", "pull.js", "hints.js",
                                                     "bench.js")]
+WATCH = SOURCE / "apps/watched_page.js"
 DRAWING = SOURCE / "lib/live/drawing"
 
 
@@ -51,7 +52,7 @@ def joined(paths):
 
 def main():
     parts, drawing_parts = parts_of(PAGE / "page.html"), parts_of(DRAWING / "drawing.html")
-    live, source, drawing = joined(LIVE), joined(parts), joined([*drawing_parts, LIVE[0]])
+    live, source, drawing = joined([*LIVE, WATCH]), joined(parts), joined([*drawing_parts, LIVE[0]])
     with claim("text of the model never becomes markup"):
         for word in ("innerHTML", "outerHTML", "insertAdjacentHTML", "document.write", "eval("):
             assert word not in source + live + drawing, word

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """fbd-mcp, by a client that speaks the protocol: one process for each test, all requests in its input."""
 import json
+import math
 import os
 import subprocess
 import sys
@@ -56,7 +57,7 @@ def test_tools_and_resources_are_listed():
                        {"id": 3, "method": "resources/read", "params": {"uri": "fbd://language"}},
                        {"id": 4, "method": "resources/read", "params": {"uri": "fbd://models/kinetics/incline.yaml"}}])
     tools = {tool["name"]: tool for tool in answers[1]["result"]["tools"]}
-    assert {"check", "run", "equations", "check_derivation", "grade", "draw", "statics", "linearize", "sweep"} <= set(tools)
+    assert {"check", "run", "equations", "check_derivation", "grade", "draw", "statics", "linearize", "sweep", "find"} <= set(tools)
     for tool in tools.values():
         assert tool["inputSchema"]["type"] == "object" and set(tool["inputSchema"]["required"]) <= set(tool["inputSchema"]["properties"])
     uris = {resource["uri"] for resource in answers[2]["result"]["resources"]}
@@ -96,6 +97,14 @@ def test_numbers():
     assert [row[1] for row in sweep["structuredContent"]["rows"]] == [0.1, 0.2]
     assert svg["structuredContent"]["svg"].startswith("<?xml")
     assert "A" in linear["structuredContent"] or "eigenvalues" in linear["content"][0]["text"].lower()
+
+
+def test_a_value_is_found():
+    question = {"model": TEXT, "parameters": {"f1": 0, "v0": 0}, "question": "mu_s = 0..1: block slips", "until": 1}
+    found, unknown = calls(("find", question), ("find", {**question, "question": "nu = 0..1: block slips"}))
+    (solution,) = found["structuredContent"]["solutions"]
+    assert abs(solution["value"] - math.tan(math.pi / 6)) <= solution["error"] and "mu_s" in found["content"][0]["text"]
+    assert unknown["isError"]
 
 
 def test_a_derivation_is_judged_line_by_line():

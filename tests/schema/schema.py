@@ -87,6 +87,7 @@ BEYOND = {
     "event_direction_against_sign.yaml": "a sign in an expression",
     "every_twice.yaml": "two places of the file",
     "inertia_about_no_pivot.yaml": "a word that the motion allows",
+    "input_as_length.yaml": "a name in an expression",
     "input_drives.yaml": "a name in an expression",
     "output_points_twice.yaml": "two places of the file",
     "power_on_a_body.yaml": "what `on` says beside it",

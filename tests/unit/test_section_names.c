@@ -135,6 +135,42 @@ static void a_place_beyond_the_body_fails_the_run(void **unused)
     close_table(&table);
 }
 
+static void every_run_fails_at(const char *output)
+{
+    struct sweep_table table = sweep_of(supported, TEXTS("P=100,200"), TEXTS(output));
+    assert_int_equal(table.counts.failed, 2);
+    assert_field(&table, 1, 2, "");
+    assert_non_null(strstr(table.rows.data, "[bad-place]"));
+    close_table(&table);
+}
+
+static void a_place_beyond_all_bodies_fails_every_run(void **unused)
+{
+    (void)unused;
+    every_run_fails_at("M(beam, 5 m)");
+    every_run_fails_at("max(M(beam, -1 m))");
+}
+
+/* The place is beyond the beam of the file, but on that of each run. */
+static void places_are_those_of_the_run(void **unused)
+{
+    (void)unused;
+    struct sweep_table table = sweep_of(supported, TEXTS("d=5,6", "L=8,9", "a=1,2"),
+                                        TEXTS("M(beam, d)", "M(beam, 4.5 m)", "M(d + L/10)"));
+    assert_int_equal(table.counts.written, 8);
+    assert_int_equal(table.counts.failed, 0);
+    for (size_t i = 0; i < 8; i++) {
+        const double d = number(&table, i, 1), L = number(&table, i, 2), a = number(&table, i, 3);
+        const double P = 300, w = 90, A = w * L / 2 + P * (L - a) / L, size = (P + w * L) * L;
+        const double places[] = {d, 4.5, d + L / 10};
+        for (size_t k = 0; k < 3; k++) {
+            const double x = places[k];
+            assert_near(number(&table, i, 4 + k), A * x - w * x * x / 2 - P * (x - a), size);
+        }
+    }
+    close_table(&table);
+}
+
 static void assert_no_output(const char *text, const char *output, const char *id)
 {
     const fbd_sweep_plan plan = plan_of(NULL, TEXTS(output));
@@ -148,8 +184,6 @@ static void wrong_names_are_refused(void **unused)
 {
     (void)unused;
     assert_no_output(supported, "M(baem, 1 m)", "unknown-body");
-    assert_no_output(supported, "M(beam, 5 m)", "bad-place");
-    assert_no_output(supported, "max(M(beam, -1 m))", "bad-place");
     assert_no_output(supported, "M(beam)", "bad-place");
     assert_no_output(supported, "M(beam, 1 m, 2 m)", "bad-place");
     assert_no_output(supported, "M(beam, lod)", "unknown-name");
@@ -304,11 +338,18 @@ static void wrong_lines_are_refused(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_beam_on_two_supports),  cmocka_unit_test(a_falling_chimney),
-        cmocka_unit_test(a_rod_that_is_pushed),    cmocka_unit_test(a_place_beyond_the_body_fails_the_run),
-        cmocka_unit_test(wrong_names_are_refused), cmocka_unit_test(a_beam_on_three_supports_warns),
-        cmocka_unit_test(values_of_parameters),    cmocka_unit_test(a_scene_at_rest_has_no_velocities),
-        cmocka_unit_test(lines_of_derivations),    cmocka_unit_test(wrong_lines_are_refused),
+        cmocka_unit_test(a_beam_on_two_supports),
+        cmocka_unit_test(a_falling_chimney),
+        cmocka_unit_test(a_rod_that_is_pushed),
+        cmocka_unit_test(a_place_beyond_the_body_fails_the_run),
+        cmocka_unit_test(a_place_beyond_all_bodies_fails_every_run),
+        cmocka_unit_test(places_are_those_of_the_run),
+        cmocka_unit_test(wrong_names_are_refused),
+        cmocka_unit_test(a_beam_on_three_supports_warns),
+        cmocka_unit_test(values_of_parameters),
+        cmocka_unit_test(a_scene_at_rest_has_no_velocities),
+        cmocka_unit_test(lines_of_derivations),
+        cmocka_unit_test(wrong_lines_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

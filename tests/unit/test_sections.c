@@ -331,6 +331,40 @@ static void a_falling_chimney(void **unused)
     checks_end(&checks);
 }
 
+/* ---- the ends of bodies of any length, at any distance from their pins */
+
+static void every_row_of_a_table_has_numbers(void **unused)
+{
+    struct random_numbers numbers = {74};
+    (void)unused;
+    for (int i = 0; i < 1000; i++) {
+        const double L = random_between(&numbers, 0.01, 30), x = random_between(&numbers, -1e3, 1e3),
+                     y = random_between(&numbers, -1e3, 1e3), angle = random_between(&numbers, 0, 6.28);
+        struct lines lines = {.length = 0};
+        add(&lines,
+            "fbd: 1\nbodies:\n  rod: {shape: rod, mass: 3, from: [%.17g, %.17g], to: [%.17g, %.17g], motion: "
+            "{pivot: "
+            "{point: left}}, initial: {theta: 1}, forces: [gravity]}\nsimulate: {until: 1 s}\n",
+            x, y, x + L * cos(angle), y + L * sin(angle));
+        struct trial trial = trial_parse(lines.text);
+        fbd_section *section = section_of(&trial, false);
+        const double length = fbd_section_length(section);
+        char *json = fbd_section_json(section, NULL);
+        assert_non_null(json);
+        assert_null(strstr(json, "null"));
+        const double ends[] = {nextafter(length, 2 * length), length * (1 + 1e-15), -1e-15 * length};
+        for (size_t k = 0; k < sizeof ends / sizeof *ends; k++) {
+            const bool behind = ends[k] > 0;
+            const fbd_cut cut = fbd_section_at(section, ends[k], behind);
+            assert_true(cut.x == (behind ? length : 0) && cut.N == 0 && cut.V == 0 && cut.M == 0);
+        }
+        assert_true(isnan(fbd_section_at(section, 1.001 * length, false).M));
+        free(json);
+        fbd_section_free(section);
+        trial_close(&trial);
+    }
+}
+
 /* ---- a load of any form: w = w0 sin(pi s/L) on a beam; M = w0 (L/pi)^2 sin(pi x/L) */
 
 static void a_load_of_another_form(void **unused)
@@ -448,9 +482,13 @@ static void roots_of_polynomials(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(beams_on_two_supports), cmocka_unit_test(rods_in_motion),
-        cmocka_unit_test(a_falling_chimney),     cmocka_unit_test(a_load_of_another_form),
-        cmocka_unit_test(a_plate_and_a_bob),     cmocka_unit_test(bodies_without_sections),
+        cmocka_unit_test(every_row_of_a_table_has_numbers),
+        cmocka_unit_test(beams_on_two_supports),
+        cmocka_unit_test(rods_in_motion),
+        cmocka_unit_test(a_falling_chimney),
+        cmocka_unit_test(a_load_of_another_form),
+        cmocka_unit_test(a_plate_and_a_bob),
+        cmocka_unit_test(bodies_without_sections),
         cmocka_unit_test(roots_of_polynomials),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

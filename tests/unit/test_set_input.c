@@ -276,6 +276,28 @@ static void derivatives_are_those_at_the_value_set(void **unused)
     fbd_model_free(model);
 }
 
+/* A switch in a sliding mode on v = -K x^2: the acceleration is -2 K x v, so its derivative by K is -2 x v, in which the weights
+ * of the switch take part. */
+static void a_derivative_is_that_of_a_sliding_mode(void **unused)
+{
+    (void)unused;
+    fbd_model *model = settable(
+        "fbd: 1\ninputs: {K: 2 1/m/s}\nbodies:\n  block: {mass: 1 kg, motion: slide, initial: {x: 1 m}, "
+        "forces: [applied: {value: '-10[N]*sign(v + K*x^2)'}]}\nsimulate: {until: 3 s}\n",
+        "K", NULL);
+    fbd_simulation *simulation = begun(model);
+    fbd_state *state = fbd_state_new(model);
+    size_t by = 0;
+    while (fbd_model_variable(model, by).kind != FBD_VARIABLE_INPUT) by++;
+    double derivative, x = at(simulation, state, 1, "block.x"), v = at(simulation, state, 1, "block.v");
+    near(v, -2 * x * x, close_to);
+    assert_true(fbd_state_derivatives(state, &by, 1, &derivative, NULL));
+    near(derivative, -2 * x * v, 1e-9); /* the weights vary by central differences */
+    fbd_state_free(state);
+    fbd_simulation_free(simulation);
+    fbd_model_free(model);
+}
+
 /* x'' = (F + G)/m - (k/m) x at rest under 15 N. */
 static void a_linear_system_has_inputs_that_are_set(void **unused)
 {
@@ -380,6 +402,7 @@ int main(void)
         cmocka_unit_test(a_block_breaks_away_and_stops),
         cmocka_unit_test(a_limit_is_an_input),
         cmocka_unit_test(derivatives_are_those_at_the_value_set),
+        cmocka_unit_test(a_derivative_is_that_of_a_sliding_mode),
         cmocka_unit_test(a_linear_system_has_inputs_that_are_set),
         cmocka_unit_test(states_have_values_of_their_own),
         cmocka_unit_test(wrong_calls_are_refused),

@@ -142,7 +142,7 @@ function tiePoints(frames) {
 // ---- static parts
 
 function drawStillTies() {
-  for (const { point, e, n, corners, speed } of run.surfaces) if (!corners) drawSurface(point, e, n, 0, speed);
+  for (const { point, e, n, speed } of run.surfaces) if (point) drawSurface(point, e, n, 0, speed);
   drawGround(run.surfaces.filter(({ corners }) => corners));
   for (const { kind, ends, e, n, speed } of run.couplings) {
     if (kind === "roll" && ends[1].body < 0) drawSurface(ends[1].point, e, n, 0, speed);

@@ -44,9 +44,10 @@ function math(tag, ...children) {
   return node;
 }
 
-// A symbol such as mu_k, T_cord, v_dot, I_O, rod.omega: one letter is italic, the part after the underscore an index.
+// A symbol such as mu_k, m2, v_dot, I_O, rod.omega: one letter is italic, the part after the underscore an index.
 function mathSymbol(name) {
-  const [, body, base, dotted, index] = /^(.*\.)?([^_]*)(_d+ot)?_?(.*)$/.exec(name.replace(/(^|\.)v([xy])(_dot)?$/, "$1v$3_$2"));
+  const plain = name.replace(/(^|\.)v([xy])(_dot)?$/, "$1v$3_$2").replace(/(^|\.)([A-Za-z]+)(\d+)$/, "$1$2_$3");
+  const [, body, base, dotted, index] = /^(.*\.)?([^_]*)(_d+ot)?_?(.*)$/.exec(plain);
   const letter = (body || "") + (greek[base] || base), node = math("mi", letter + ({ _dot: "\u0307", _ddot: "\u0308" }[dotted] || ""));
   if (dotted) node.setAttribute("class", "dotted"); // two characters, which MathML would set upright
   if (!index) return node;

@@ -40,7 +40,7 @@ function light(key) {
   refresh(false);
 }
 
-// Show the numbers of an arrow, and say them; its first equation is scrolled into the panel.
+// Show the numbers of an arrow, and write them for screen readers; scroll its first equation into the panel.
 function pick(key) {
   picked.shown = key;
   markTerms();

@@ -67,11 +67,39 @@ function drawWall([x, y], [nx, ny], half = 16) {
   hatch([x - half * ny, y + half * nx], [x + half * ny, y - half * nx], nx, ny);
 }
 
-// An arrow below a surface that runs, `away` along it from its middle; both ways if its speed varies.
+// The senses in which a surface runs: both if its speed varies, none if it rests.
+function sensesOf(speed) {
+  return speed === undefined ? [] : speed === null ? [1, -1] : [Math.sign(speed)];
+}
+
+// An arrow below a surface that runs, centred `away` along it from its middle.
 function drawRunning({ e: [ex, ey], middle, speed }, away) {
-  if (speed === undefined) return;
-  const at = [middle[0] + away * ex, middle[1] + away * ey];
-  for (const way of speed === null ? [1, -1] : [Math.sign(speed)]) plainArrow(at, [way * ex, way * ey], 30, tone.soft);
+  for (const way of sensesOf(speed)) plainArrow([middle[0] + (away - 15 * way) * ex, middle[1] + (away - 15 * way) * ey], [way * ex, way * ey], 30, tone.soft);
+}
+
+function nameSpeed(key, speed, at, way, shows) {
+  if (shows.axes && speed) wantLabel(`${key}:runs`, measured(Math.abs(speed), run.units.speed), ...at, ...way, tone.soft);
+}
+
+// The surfaces of bodies that run: arrows along slides and lines, arcs in bodies that contacts meet all around.
+function drawRunningBodies(frames, shows) {
+  const draw = (key, speed, [x, y], { c, s }, [ex, ey]) => {
+    const e = [c * ex - s * ey, -s * ex - c * ey], middle = [x - 9 * e[1], y + 9 * e[0]];
+    drawRunning({ e, middle, speed }, 0);
+    nameSpeed(key, speed, middle, [0, 1], shows);
+  };
+  run.bodies.forEach(({ name, line }, i) => { if (line?.on >= 0) draw(name, line.speed, onCanvas(frames[i], [0, 0]), frames[line.on], line.along); });
+  for (const { name, board, on, e, n, ends: [{ body, point, radius }], speed } of run.couplings) {
+    if (!board) continue;
+    const [x, y] = inFrame(frames[on], placed(frames[body], point));
+    draw(name, speed, onCanvas(frames[on], [x - radius * n[0], y - radius * n[1]]), frames[on], e);
+  }
+  for (const { body, speed } of run.surfaces) {
+    if (body === undefined) continue;
+    const at = onCanvas(frames[body], run.bodies[body].G);
+    for (const way of sensesOf(speed)) drawArc(at, 18, way > 0 ? -0.5 : Math.PI + 0.5, 4.1 * way, tone.soft, () => strokeWith(tone.soft, 2.2), 0);
+    nameSpeed(body, speed, [at[0], at[1] + 18], [0, 1], shows);
+  }
 }
 
 // Keep a surface of the ground for shadows and the label of its speed, which are below its `middle`.
@@ -121,7 +149,7 @@ function drawShadow({ from, e, n, length }, body, frame) {
     first = Math.min(first, s - radius);
     last = Math.max(last, s + radius);
   };
-  if (!isSized(body) && body.line) for (const corner of blockCorners(frame)) take(corner, 0);
+  if (!isSized(body) && body.line) for (const corner of blockCorners(body, frame)) take(corner, 0);
   for (const shape of body.shapes) {
     const isRound = shape.kind === "circle", radius = isRound ? shape.radius * view.scale : shape.kind === "bar" ? 4 : 0;
     for (const point of isRound ? [shape.center] : shape.corners || []) take(toScreen(shapePoint(body, frame, point)), radius);
@@ -307,9 +335,11 @@ function drawShape(body, frame, shape) {
   }
 }
 
-function blockCorners(frame) {
-  const w = view.block, h = 0.7 * view.block, [x, y] = toScreen([frame.x, frame.y]);
-  return [[w, h], [-w, h], [-w, -h], [w, -h]].map(([a, b]) => [x + a * frame.c - b * frame.s, y - a * frame.s - b * frame.c]);
+// A block stands on the line of its slide on a body with a size; elsewhere the line goes through its middle.
+function blockCorners({ line, share }, frame) {
+  const w = view.block * share, h = 0.7 * w, [x, y] = toScreen([frame.x, frame.y]);
+  const low = line.on >= 0 && isSized(run.bodies[line.on]) ? 0 : line.surface ? -0.7 * view.block : -h;
+  return [[w, low + 2 * h], [-w, low + 2 * h], [-w, low], [w, low]].map(([a, b]) => [x + a * frame.c - b * frame.s, y - a * frame.s - b * frame.c]);
 }
 
 function drawBody(body, frame) {
@@ -322,7 +352,7 @@ function drawBody(body, frame) {
     }
   }
   if (!isSized(body) && body.board) return;
-  if (!isSized(body) && body.line) { drawPlate(blockCorners(frame), tintOf(body)); return; }
+  if (!isSized(body) && body.line) { drawPlate(blockCorners(body, frame), tintOf(body)); return; }
   for (const hole of [false, true]) for (const shape of body.shapes) if (Boolean(shape.hole) === hole) drawShape(body, frame, shape);
 }
 
@@ -349,10 +379,11 @@ function drawScene(t, shows, chosen) {
   view.grounds.forEach((ground, k) => {
     const { n: [nx, ny], middle, speed } = ground;
     run.bodies.forEach((body, i) => drawShadow(ground, body, frames[i]));
-    if (shows.axes && speed) wantLabel(`${k}:runs`, measured(Math.abs(speed), run.units.speed), ...middle, -nx, -ny, tone.soft);
+    nameSpeed(`ground ${k}`, speed, middle, [-nx, -ny], shows);
   });
   run.bodies.forEach((body, i) => drawBody(body, frames[i]));
   drawTiesOver(frames, t);
+  drawRunningBodies(frames, shows);
   run.bodies.forEach((body, i) => {
     drawStops(body, frames[body.parent], shows);
     if (body.coil) drawSpiral(body, frames[i], t);

@@ -68,10 +68,10 @@ function usualMost(values) {
 // Place the walls of springs and dampers along a slide, which have no position in the model: above, on a level slide
 // before the least coordinate; several of a body side by side, `beside` in pixels.
 function placeWalls() {
-  const walled = run.links.filter((link) => !link.anchor);
+  const walled = run.links.filter((link) => !link.anchor), size = Math.max(held.right - held.left, held.top - held.bottom);
   for (const link of walled) {
     const { through, along, normal } = run.bodies[link.body].line, same = walled.filter((other) => other.body === link.body);
-    const [least, most] = bounds(survey.map(({ t }) => valueAt(run.bodies[link.body].coordinates[0], t))), range = most - least || 1;
+    const [least, most] = bounds(survey.map(({ t }) => valueAt(run.bodies[link.body].coordinates[0], t))), range = Math.max(most - least, 0.2 * size) || 1;
     const x = along[1] > 0.1 ? most + 0.5 * range : least - 0.5 * range;
     link.anchor = [through[0] + x * along[0], through[1] + x * along[1]];
     link.beside = 16 * (same.indexOf(link) - (same.length - 1) / 2);
@@ -194,6 +194,13 @@ function slideGap() {
   return Math.min(...gaps.filter((gap) => gap > 1e-3 * (held.right - held.left)));
 }
 
+// Blocks without a size that overlap at some time are drawn one in the other, each smaller than those before.
+function nestBlocks() {
+  const blocks = run.bodies.filter((body) => body.line && !body.wedge && !isSized(body));
+  const meet = (a, b) => survey.some(({ frames: { [a.index]: p, [b.index]: q } }) => Math.hypot(p.x - q.x, p.y - q.y) * view.scale < 1.4 * view.block);
+  blocks.forEach((body, i) => { body.share = 0.7 ** blocks.slice(0, i).filter((other) => meet(body, other)).length; });
+}
+
 // Half the size of a body around its centre of mass, 0 if it has no size.
 function bodyExtent(body) {
   const points = body.shapes.filter((shape) => shape.corners || shape.radius).flatMap(shapePoints);
@@ -251,6 +258,7 @@ function aim() {
   view.x = mx + view.zoom * (view.x - mx) + view.pan[0];
   view.y = my + view.zoom * (view.y - my) + view.pan[1];
   view.block = Math.min(0.045 * view.side, Math.max(7, 0.45 * view.scale * slideGap()));
+  nestBlocks();
   drawStill();
 }
 

@@ -55,7 +55,7 @@ const draftKey = () => {
 };
 
 function keepDraft() {
-  try { localStorage.setItem(draftKey(), snapshot()); } catch { drawing.lost = kept.past.length > 0; } // some keep nothing of files
+  try { localStorage.setItem(draftKey(), snapshot()); } catch { drawing.lost = kept.past.length > 0; } // some browsers store nothing for files
 }
 
 // Show the last draft, or an empty sheet. Reading writes nothing: another window may have kept a newer draft.

@@ -1,8 +1,8 @@
 "use strict";
 
-// The verdict of `fbd-run --grade` on the drawing, if the page has the library and the key, which an exam has not.
+// The verdict of `fbd-run --grade` on the drawing, in pages with the library and the key: not in those for an exam.
 
-const verdict = { asker: null };
+const verdict = { client: null };
 
 // Mark each finding at its entry or line; of two the worse one.
 function markFindings(tests, places) {
@@ -38,8 +38,8 @@ function showVerdict(answer, places) {
 
 async function beginGrading() {
   await compileEngine();
-  verdict.asker = makeAsker(() => {});
-  verdict.asker.failed = (message) => { element("says").textContent = `the check has failed: ${message}`; element("check").disabled = false; };
+  verdict.client = makeClient(() => {});
+  verdict.client.failed = (message) => { element("says").textContent = `the check has failed: ${message}`; element("check").disabled = false; };
 }
 
 async function check() {
@@ -47,8 +47,8 @@ async function check() {
   element("check").disabled = true;
   element("says").textContent = "checking…";
   try {
-    if (!verdict.asker) await beginGrading();
-    verdict.asker.ask("grade", [parts.key, parts.settings, text, sheet.student], (answer) => showVerdict(answer, places), [0]);
+    if (!verdict.client) await beginGrading();
+    verdict.client.request("grade", [parts.key, parts.settings, text, sheet.student], (answer) => showVerdict(answer, places), [0]);
   } catch (error) {
     element("says").textContent = `this browser cannot run the library: ${error.message}`;
     element("check").disabled = false;

@@ -3,7 +3,7 @@
 // The live page: the text of the model is run, saved and carried by links; sliders change their numbers in it. Effects
 // that are off are removed from the text that runs.
 
-const bench = { base: parts.text, moved: new Map(), off: new Set(), controls: null, asked: "", shown: 0, runner: null, coster: null, writer: null };
+const bench = { base: parts.text, moved: new Map(), off: new Set(), controls: null, shown: 0, runner: null, coster: null, writer: null };
 
 // The text with all changes made by sliders since `controls` were received.
 function benchText() {
@@ -36,14 +36,14 @@ function controlOf(key) {
   return controlList(bench.controls).find(([other]) => other === key)[1];
 }
 
-// Apply a change. While a slider moves, the run has fewer rows; the worker is asked before the page changes its texts.
+// Apply a change. While a slider moves, the run has fewer rows; the call is sent before the page changes its texts.
 function moved(key, value, underWay = false) {
   if (!bench.controls || !controlOf(key).written) return;
   bench.moved.set(key, value);
   bench.last = key;
-  if (knobs.has(key)) knobs.get(key).told = value;
+  if (knobs.has(key)) knobs.get(key).sent = value;
   const text = benchText();
-  askForRun(text, underWay ? rowsUnderWay : 0);
+  requestRun(text, underWay ? rowsUnderWay : 0);
   setEditor(text);
 }
 
@@ -82,7 +82,7 @@ function makeEffects() {
     box.dataset.effect = name;
     box.addEventListener("change", () => {
       if (box.checked) bench.off.delete(name); else bench.off.add(name);
-      askForRun();
+      requestRun();
     });
     label.append(box, ` ${bench.controls.effects.some((other) => other.body !== effect.body) ? name : effect.name}`);
     return label;
@@ -118,7 +118,7 @@ function say(key, values = [], css = "") {
   Object.assign(element("live-says"), { textContent: phrase(key, ...values), className: css, lang: "" });
 }
 
-// The first error of the library, whose messages are English; `key` is said without one.
+// Show the first error of the library, whose messages are English, or the text of `key` without one.
 function sayLibrary(errors, key = "live-no-run") {
   const wrong = errors.find((note) => note.severity === "error");
   say(key, [], "error");
@@ -127,11 +127,12 @@ function sayLibrary(errors, key = "live-no-run") {
   Object.assign(element("live-says"), { textContent: wrong.message, lang: "en" });
 }
 
-// Say everything again in the language that has been chosen.
+// Write the texts of the live panel in the chosen language.
 function speakLive() {
   for (const knob of knobs.values()) nameSlider(knob.control.name, knob);
   showMeaning(editor.selectionStart);
   if (bench.said) element("live-says").textContent = phrase(bench.said.key, ...bench.said.values);
+  if (checker.said) sayChecked(...checker.said);
   showCommand();
 }
 
@@ -139,6 +140,7 @@ function answeredControls(text, answer) {
   const { errors, controls } = JSON.parse(answer);
   if (text !== editor.value) return;
   showNotes(errors);
+  element("live-grade").hidden = !/^grading:/m.test(text);
   if (controls) takeControls(text, controls);
   element("live-side").classList.toggle("stale", !controls);
   for (const [key, { box }] of knobs) box.setAttribute("aria-invalid", String(!controls && key === bench.last));
@@ -162,11 +164,12 @@ function answeredRun(question, answer) {
 const rowsUnderWay = 500;
 
 // Request the controls and then the run of a text.
-function askForRun(text = editor.value, rows = 0) {
+function requestRun(text = editor.value, rows = 0) {
   const off = offNames();
   bench.since = performance.now();
+  markVerdict(text);
   bench.coster?.stop();
-  bench.runner.ask("both", [text, parts.name, off], (answer) => {
+  bench.runner.request("both", [text, parts.name, off], (answer) => {
     const [controls, motion] = answer;
     answeredControls(text, controls);
     if (motion) answeredRun({ text, off }, motion);
@@ -180,8 +183,8 @@ function showCosts() {
   if (!element("live-costs").open) return;
   const picture = element("live-diagram"), says = element("live-cost-says");
   says.textContent = phrase("live-measuring");
-  bench.coster = bench.coster || makeAsker(([share]) => { says.textContent = phrase("live-measured", Math.round(100 * share)); });
-  bench.coster.ask("cost", [editor.value, parts.name, offNames()], (svg) => {
+  bench.coster = bench.coster || makeClient(([share]) => { says.textContent = phrase("live-measured", Math.round(100 * share)); });
+  bench.coster.request("cost", [editor.value, parts.name, offNames()], (svg) => {
     says.textContent = svg ? "" : phrase("live-no-costs");
     picture.hidden = !svg;
     if (svg) picture.src = `data:image/svg+xml,${encodeURIComponent(svg)}`;
@@ -202,7 +205,7 @@ function connectBench() {
     showLineNumbers();
     bench.last = null;
     clearTimeout(typing);
-    typing = setTimeout(() => askForRun(), 150);
+    typing = setTimeout(() => requestRun(), 150);
   });
   editor.addEventListener("scroll", scrollEditor);
   element("live-method").addEventListener("change", () => moved("method", element("live-method").value));
@@ -214,12 +217,13 @@ function connectBench() {
   listen("language", "change", speakLive);
   connectShare();
   connectValues();
+  connectCheck();
 }
 
 function setModel(text, off) {
   bench.off = new Set(off);
   setEditor(text);
-  askForRun();
+  requestRun();
 }
 
 // The initial text of the page, with the settings of the command line.
@@ -236,14 +240,14 @@ async function startBench() {
   setEditor(parts.text);
   connectBench();
   await compileEngine();
-  bench.runner = makeAsker(([t, until]) => {
+  bench.runner = makeClient(([t, until]) => {
     element("live-stop").hidden = false;
     say("live-running", [show(t), show(until)]);
   });
   bench.runner.failed = (message) => say("live-failed", [message], "error");
-  const controls = await new Promise((answered) => { bench.runner.ask("controls", [parts.text, parts.name], answered); });
+  const controls = await new Promise((answered) => { bench.runner.request("controls", [parts.text, parts.name], answered); });
   bench.first = JSON.parse(controls).controls;
-  connectHints(await new Promise((answered) => { bench.runner.ask("schema", [], answered); }));
+  connectHints(await new Promise((answered) => { bench.runner.request("schema", [], answered); }));
   bench.own = ownText();
   const linked = await readLink();
   setModel(linked ? linked.text : bench.own, linked ? linked.off : []);

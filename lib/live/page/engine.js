@@ -1,7 +1,7 @@
 "use strict";
 
-// The library in workers: compiled once, one question at a time. Of several waiting questions only the newest is kept;
-// a question that takes too long is ended when another one comes.
+// The library in workers: compiled once; a worker runs one call at a time. Of several waiting calls only the newest is kept;
+// a call that exceeds `patience` is ended when another one comes.
 
 const parts = JSON.parse(element("live-parts").textContent);
 const patience = 2000; // ms
@@ -14,44 +14,44 @@ async function compileEngine() {
   engine.module = await WebAssembly.compileStreaming(new Response(bytes.pipeThrough(new DecompressionStream("gzip")), { headers }));
 }
 
-// Make a worker for one kind of question; told(progress) is called with its progress.
-function makeAsker(told) {
-  const asker = { worker: null, ready: false, busy: null, since: 0, waiting: null };
+// Make a worker for one kind of call; onProgress([done, all]) receives its progress.
+function makeClient(onProgress) {
+  const client = { worker: null, ready: false, busy: null, since: 0, waiting: null };
   const next = () => {
-    if (!asker.ready || asker.busy || !asker.waiting) return;
-    asker.busy = asker.waiting;
-    asker.waiting = null;
-    asker.since = performance.now();
-    asker.worker.postMessage(asker.busy.question);
+    if (!client.ready || client.busy || !client.waiting) return;
+    client.busy = client.waiting;
+    client.waiting = null;
+    client.since = performance.now();
+    client.worker.postMessage(client.busy.question);
   };
-  const hear = ({ data }) => {
-    if (data.progress) { told(data.progress); return; }
-    if (data.ready) asker.ready = true;
+  const receive = ({ data }) => {
+    if (data.progress) { onProgress(data.progress); return; }
+    if (data.ready) client.ready = true;
     else {
-      const { answered } = asker.busy;
-      asker.busy = null;
+      const { answered } = client.busy;
+      client.busy = null;
       answered(data.answer);
     }
     next();
   };
   const start = () => {
-    asker.worker = new Worker(engine.script);
-    asker.worker.onmessage = hear;
-    asker.worker.onerror = (event) => { event.preventDefault(); asker.stop(); asker.failed(event.message); };
-    asker.worker.postMessage({ module: engine.module, files: parts.files });
+    client.worker = new Worker(engine.script);
+    client.worker.onmessage = receive;
+    client.worker.onerror = (event) => { event.preventDefault(); client.stop(); client.failed(event.message); };
+    client.worker.postMessage({ module: engine.module, files: parts.files });
   };
-  asker.failed = () => {};
-  // End the present question; a waiting one is asked afterwards.
-  asker.stop = () => {
-    asker.worker?.terminate();
-    Object.assign(asker, { ready: false, busy: null });
+  client.failed = () => {};
+  // End the present call; a waiting one runs afterwards.
+  client.stop = () => {
+    client.worker?.terminate();
+    Object.assign(client, { ready: false, busy: null });
     start();
   };
-  asker.ask = (call, texts, answered, numbers) => {
-    asker.waiting = { question: { call, texts, numbers }, answered };
-    if (asker.busy && performance.now() - asker.since > patience) asker.stop();
+  client.request = (call, texts, answered, numbers) => {
+    client.waiting = { question: { call, texts, numbers }, answered };
+    if (client.busy && performance.now() - client.since > patience) client.stop();
     else next();
   };
   start();
-  return asker;
+  return client;
 }

@@ -36,7 +36,7 @@ function turnAbout([x, y], from, to) {
 // The outlines of a body on the canvas, as functions that trace them.
 function outlinesOf(body, frame) {
   const outer = (points) => points.map((point) => toScreen(shapePoint(body, frame, point)));
-  if (!isSized(body) && body.line) return [() => path(blockCorners(frame), true)];
+  if (!isSized(body) && body.line) return [() => path(blockCorners(body, frame), true)];
   if (body.joints.length > 1) return [() => path(body.joints.map((point) => onCanvas(frame, point)), true)];
   return body.shapes.map((shape) => () => {
     if (shape.corners) path(outer(shape.corners), shape.kind === "polygon");
@@ -44,7 +44,7 @@ function outlinesOf(body, frame) {
   });
 }
 
-// The body at a point of the canvas, within 8 pixels, of those that `may`; the topmost first.
+// The body at a point of the canvas, within 8 pixels, of those for which `may` is true; the topmost first.
 function bodyAt([x, y], may) {
   pen.setLineDash([]);
   pen.lineWidth = 16;
@@ -80,7 +80,7 @@ function gripOfStart(from) {
 
 // ---- weights and slopes
 
-// The arrow of a weight grows by the same share as the mass, to a twentieth of it at least. It is held by its outer half.
+// The arrow of a weight grows in proportion to the mass, and keeps at least a twentieth. Its outer half is the grip.
 function gripOfMass(from, reach) {
   const key = arrowAt(from, reach), found = arrowBy(key);
   const slider = found && found.arrow.hue === "gravity" && sliderOf(`masses.${found.body.name}`, controlNamed("masses", found.body.name));

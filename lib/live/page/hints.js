@@ -27,7 +27,7 @@ function schemaAt(trail) {
   return trail.reduce(schemaUnder, schemaNodes(hints.schema));
 }
 
-// The words that nodes permit, with what they mean: keys if `asKeys`, and values.
+// The words that nodes permit, with their meanings: keys if `asKeys`, and values.
 function wordsOf(nodes, asKeys) {
   const words = new Map();
   const add = (word, means, isKey) => { if (typeof word === "string" && !words.get(word)?.means) words.set(word, { word, means: means || "", isKey }); };
@@ -44,8 +44,8 @@ function meaningOf(nodes) {
 
 // ---- the place in the text
 
-// The path of keys, and null for items of lists, at the end of a text; `value` behind a key on its line. Only as much of YAML
-// is read as models have: blocks, lists, brackets, texts in quotes, comments.
+// The path of keys, with null for items of lists, at the end of a text; `value` behind a key on its line. Reads the subset of
+// YAML that models use: blocks, lists, brackets, texts in quotes, comments.
 function pathAtEnd(text) {
   const open = []; // of blocks: {column, key}; of brackets: {bracket, key}
   let value = false;
@@ -91,7 +91,7 @@ function wordAt(text, at, whole) {
   return { word: before + behind, from: at - before.length };
 }
 
-// What the word at a place of the text means, or else the key whose value that is.
+// The meaning of the word at a position of the text, or else of the key whose value it is.
 function meaningAt(text, at) {
   const { word, from } = wordAt(text, at, true), { path: trail, value } = pathAtEnd(text.slice(0, from)), key = trail[trail.length - 1];
   if (/#/.test(text.slice(text.lastIndexOf("\n", from - 1) + 1, from))) return "";
@@ -129,13 +129,13 @@ function chooseHint(index) {
   editor.setAttribute("aria-activedescendant", list.children[index].id);
 }
 
-// Open the list of the words that may follow at the caret; by itself only for a word that has begun.
-function openHints(asked) {
+// Open the list of the words that may follow at the caret; without a request only while a word is typed.
+function openHints(requested) {
   const at = editor.selectionStart, { word, from } = wordAt(editor.value, at, false), text = editor.value.slice(0, from);
   closeHints();
-  if (!hints.schema || (!asked && !word) || /#[^\n]*$/.test(text)) return;
+  if (!hints.schema || (!requested && !word) || /#[^\n]*$/.test(text)) return;
   const { path: trail, value } = pathAtEnd(text), words = wordsOf(schemaAt(trail), !value);
-  hints.list = words.filter((other) => other.word.startsWith(word) && (asked || other.word !== word));
+  hints.list = words.filter((other) => other.word.startsWith(word) && (requested || other.word !== word));
   if (!hints.list.length) return;
   hints.from = from;
   const list = element("live-words"), before = text.slice(text.lastIndexOf("\n") + 1), [width, height, pad] = editorGrid();
@@ -150,10 +150,10 @@ function openHints(asked) {
   const top = pad + height * text.split("\n").length - editor.scrollTop, area = element("live-paper");
   list.style.left = `${Math.max(0, Math.min(pad + width * before.length - editor.scrollLeft, area.clientWidth - list.offsetWidth))}px`;
   list.style.top = `${top + list.offsetHeight > area.clientHeight && top > list.offsetHeight + height ? top - height - list.offsetHeight : top}px`;
-  chooseHint(asked ? 0 : -1);
+  chooseHint(requested ? 0 : -1);
 }
 
-// Write a word in place of its beginning, as if it were typed.
+// Replace the beginning of a word by the word, as typed input.
 function takeHint(index) {
   const { word, isKey } = hints.list[index], colon = isKey && !/^\s*:/.test(editor.value.slice(editor.selectionStart));
   editor.focus();
@@ -162,7 +162,7 @@ function takeHint(index) {
   closeHints();
 }
 
-// Keys while the list is open; Enter takes a word that arrows have chosen.
+// Keys while the list is open; Enter inserts the word chosen by the arrow keys.
 function hintKey(event) {
   const { list, chosen } = hints, step = { ArrowDown: 1, ArrowUp: -1 }[event.key], count = list.length;
   if (event.key === " " && event.ctrlKey) openHints(true);

@@ -39,7 +39,7 @@ function stepOf([low, high]) {
   return (high - low) / step > 400 ? 2 * step : step;
 }
 
-// key: {control, quantity, slider, box, range, shown: in the box, told: by slider, box or grip}
+// key: {control, quantity, slider, box, range, shown: in the box, sent: the last text that a slider, box or grip wrote}
 const knobs = new Map();
 
 function writtenAs(knob, number) {
@@ -83,7 +83,7 @@ function setKnob(key, control, text) {
   const fixed = !spot || control.derived || !Number.isFinite(amount.number), before = knob.shown;
   knob.shown = spot && spot.to !== undefined ? text.slice(spot.from, spot.to) : `${show(amount.number)} ${amount.unit}`.trim();
   // the range stays where the page itself has changed the number, or another one
-  const { range: [low, high] = [0, 0] } = knob, typed = knob.shown !== before && knob.shown !== knob.told;
+  const { range: [low, high] = [0, 0] } = knob, typed = knob.shown !== before && knob.shown !== knob.sent;
   if (typed || knob.quantity.unit !== amount.unit || amount.number < low || amount.number > high) {
     knob.range = rangeOf(control, amount, key);
     if (amount.number < knob.range[0]) knob.range[0] = amount.number;

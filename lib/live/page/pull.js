@@ -2,13 +2,13 @@
 
 // While the page plays, a body is pulled by the pointer, or by keys: by a spring from the grabbed point to the hand, with a
 // damper beside it. The library writes them into the text as a force with the path of the hand as a table
-// (fbd_model_pulled), and the model is run again: the force has its arrow, its term and its work as every other one. After
-// the release the motion goes on. The hand reaches the pointer `lag` later: its path grows into the future, and the past stays.
+// (fbd_model_pulled), and the model is run again: the force has an arrow, a term and a work as every other one. After
+// the release the motion continues. The hand reaches the pointer `lag` later: only the future part of its path changes.
 
 const lag = 50; // ms between two points of the path
 const pull = { body: 0, name: "", text: "", shown: "", path: [], at: null, timer: 0 }; // at: null while nothing is pulled
 
-// Of the spring: such that the arrow of its force, to the scale of the other ones, reaches to the hand.
+// The stiffness of the spring by which the arrow of its force, in the scale of the others, ends at the hand.
 function stiffnessOfPull() {
   return view.scale / pixelsPerForce();
 }
@@ -22,7 +22,7 @@ function grabbedAt(t) {
   return placed(frameAt(run.bodies[pull.body], t), pull.point);
 }
 
-// Where the hand is at a time of its path.
+// The position of the hand at a time of its path.
 function handAt(t) {
   const k = pull.path.findIndex(([time]) => time > t), b = pull.path[k], a = pull.path[Math.max(k, 0) - 1] || pull.path[pull.path.length - 1];
   if (!b || b === pull.path[0]) return (b || a).slice(1);
@@ -78,7 +78,7 @@ function askForPull(until, rows) {
   const { text, body, point, stiffness, grab: from } = pull, { pin, name } = run.bodies[body];
   bench.since = performance.now();
   bench.coster?.stop();
-  bench.runner.ask("pulled", [text, parts.name, offNames(), name, pull.path.flat().join(" ")], takePulled,
+  bench.runner.request("pulled", [text, parts.name, offNames(), name, pull.path.flat().join(" ")], takePulled,
     [rows, point[0] + pin[0], point[1] + pin[1], stiffness, from, until]);
 }
 
@@ -102,7 +102,7 @@ function stopPull() {
   pull.at = hold.grip = null;
 }
 
-// End the pull at the present time: the motion goes on without the hand.
+// End the pull at the present time: the motion continues without the hand.
 function letGo() {
   if (!pull.at) return;
   stopPull();

@@ -5,7 +5,7 @@
 // The text that runs, without the effects that are off.
 function savedText(answered) {
   if (bench.off.size === 0) answered(editor.value);
-  else bench.runner.ask("text", [editor.value, parts.name, offNames()], (text) => answered(text ?? editor.value));
+  else bench.runner.request("text", [editor.value, parts.name, offNames()], (text) => answered(text ?? editor.value));
 }
 
 function download(text, type, name) {
@@ -24,9 +24,9 @@ function saveText() {
 function saveNote() {
   const button = element("live-note"), ready = () => { button.textContent = phrase("live-note"); };
   button.textContent = phrase("live-calculating");
-  bench.writer = bench.writer || makeAsker(() => {});
+  bench.writer = bench.writer || makeClient(() => {});
   bench.writer.failed = (message) => { ready(); say("live-note-failed", [message], "error"); };
-  bench.writer.ask("note", [editor.value, parts.name, offNames()], (answer) => {
+  bench.writer.request("note", [editor.value, parts.name, offNames()], (answer) => {
     const { errors, note } = JSON.parse(answer);
     ready();
     if (note) download(note, "text/html", parts.name.replace(/(\.ya?ml)?$/, "-note.html"));

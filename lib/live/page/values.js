@@ -3,7 +3,7 @@
 // At which value of a parameter does an outcome change, or an equation hold? The answers become marks on its slider, at
 // which it stops when it is dragged, and buttons that set it.
 
-const finder = { asker: null };
+const finder = { client: null };
 
 // A value in SI units as the slider of a parameter writes it, with all digits that are known.
 function valueAsWritten(knob, { value, error }) {
@@ -47,15 +47,15 @@ function showFound(answer) {
   says.textContent = phrase("live-found", find.solutions.length, own(find.from), own(find.to), find.runs, own(Number(find.step.toPrecision(3))));
 }
 
-function askForValues(event) {
+function requestValues(event) {
   event.preventDefault();
   const says = element("live-find-says");
-  finder.asker = finder.asker || makeAsker(([share, all]) => { says.textContent = phrase("live-searched", Math.round(100 * share / all)); });
-  finder.asker.failed = (message) => Object.assign(says, { className: "error", textContent: phrase("live-search-failed", message) });
+  finder.client = finder.client || makeClient(([share, all]) => { says.textContent = phrase("live-searched", Math.round(100 * share / all)); });
+  finder.client.failed = (message) => Object.assign(says, { className: "error", textContent: phrase("live-search-failed", message) });
   says.textContent = phrase("live-searching");
-  finder.asker.ask("find", [editor.value, parts.name, element("live-question").value], showFound, [element("live-statics").checked ? 1 : 0]);
+  finder.client.request("find", [editor.value, parts.name, element("live-question").value], showFound, [element("live-statics").checked ? 1 : 0]);
 }
 
 function connectValues() {
-  element("live-find").addEventListener("submit", askForValues);
+  element("live-find").addEventListener("submit", requestValues);
 }

@@ -1,6 +1,6 @@
 "use strict";
 
-// Code of the worker: calls the library, one question after another. Texts in, JSON out.
+// Code of the worker: calls the library, one function after another. Texts in, JSON out.
 
 let library = null;
 
@@ -45,7 +45,7 @@ function pulled([text, name, off, body, way], [rows, ...numbers]) {
   return own === null ? [made] : [made, ...both([own, name, off], [rows])];
 }
 
-const several = { both, pulled }; // questions that are answered by several functions of the library
+const several = { both, pulled }; // calls of several functions of the library
 
 self.onmessage = ({ data }) => {
   if (data.module) begin(data);

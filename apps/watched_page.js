@@ -1,10 +1,10 @@
 "use strict";
 
-// A page that `fbd-run --watch` rewrites calls fbd.live(stamp) at its end. It then polls PAGE.stamp.js, which calls
-// fbd.stamp with the stamp of the last run, and reloads if that differs, keeping time and view.
+// At the end of a page that `fbd-run --watch` rewrites, which calls fbd.live(stamp) behind it. The page then polls
+// PAGE.stamp.js, which calls fbd.stamp with the stamp of the last run, and reloads if that differs, keeping time and view.
 
 const liveChoices = [...choices.map((name) => `show-${name}`), "follow", "loop"];
-const live = { own: "", asking: 0, place: `fbd ${location.pathname}` };
+const live = { own: "", timer: 0, place: `fbd ${location.pathname}` };
 
 function liveKept() {
   try { return JSON.parse(sessionStorage.getItem(live.place)) || {}; } catch { return {}; }
@@ -33,23 +33,23 @@ function takeView(kept) {
   scrollTo(0, kept.scroll);
 }
 
-function askForStamp() {
+function requestStamp() {
   const script = document.createElement("script");
   script.src = `${location.pathname.split("/").pop()}.stamp.js?${Date.now()}`;
   script.onload = () => script.remove();
-  script.onerror = () => { script.remove(); clearInterval(live.asking); }; // the watch has ended
+  script.onerror = () => { script.remove(); clearInterval(live.timer); }; // the watch has ended
   document.head.append(script);
 }
 
 window.fbd.live = (own) => {
   live.own = own;
   takeView(liveKept());
-  live.asking = setInterval(askForStamp, 500);
+  live.timer = setInterval(requestStamp, 500);
 };
 
 // Do not reload again for a stamp after which the page is still the old one, to avoid an endless loop.
 window.fbd.stamp = (stamp) => {
   if (stamp === live.own || stamp === liveKept().stamp || !keepView(stamp)) return;
-  clearInterval(live.asking);
+  clearInterval(live.timer);
   location.reload();
 };
