@@ -71,8 +71,10 @@ struct coupling_state {
     double laid[2];   /* at the start: wound length on the end discs; belt: its rows; weld: end 0 in link 1 */
     double foot;      /* slot: the arc length of its point, by constraints_follow */
     struct vec e, n;  /* plane friction: direction of its first row; of its force while it slips; */
-    double nu,
-        size;    /* and the speeds nu and, at the start of the step, those of which it is the difference */
+    double nu, soft,
+        across;  /* the speeds nu, nu after the start and, across e, that of round-off (plane_friction.h), */
+    double slow; /* and that below which errors of the run turn the velocity; */
+    bool gently; /* it begins to slip without an acceleration of its own */
     int feature; /* contact: its feature; no_feature while it is open */
 };
 

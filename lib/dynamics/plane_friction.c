@@ -60,10 +60,13 @@ static struct slip_of_point slip_now(const struct coupling *coupling, const stru
 void plane_follow(const struct view *view, const struct coupling *coupling, struct coupling_state *state)
 {
     const double rounding = solved_rounding; /* it sticks */
+    const double turned = 0.5;               /* by 60 degrees */
     const struct slip_of_point now = slip_now(coupling, view->work->links);
     const double speed = vec_norm(now.u);
-    state->size = now.size;
-    if (speed > fmax(rounding * now.size, soft_speeds * state->nu)) state->e = vec_scale(1 / speed, now.u);
+    if (speed <= fmax(rounding * now.size, state->slow)) return;
+    state->gently = false;
+    state->nu = state->soft;
+    if (vec_dot(state->e, now.u) < turned * speed) state->e = vec_scale(1 / speed, now.u);
 }
 
 static bool plane_slips(const struct tree *tree, const struct instant *at, int index)
@@ -86,12 +89,6 @@ struct plane_speed plane_speed(const struct fbd_model *model, const struct tree_
     return (struct plane_speed){vec_norm(now.u), now.size};
 }
 
-void plane_aim(const struct fbd_model *model, struct tree_work *work, int index)
-{
-    const struct vec u = slip_now(&model->tree->couplings[index], work->links).u;
-    if (vec_norm(u) > 0) work->couplings[index].e = vec_scale(1 / vec_norm(u), u);
-}
-
 bool planes_stick(const struct tree *tree, const struct instant *at)
 {
     for (int i = 0; i < tree->coupling_count; i++)
@@ -110,11 +107,31 @@ static double limit_of(const struct fbd_model *model, const struct instant *at, 
     return friction_coefficient(model, pair, &model->plan.modes[pair].mu_k, at, along, variation);
 }
 
-/* The velocity without the part across e that is within its rounding, of a size that it has had. */
-static struct vec resolved(struct vec w, struct vec e, double size)
+void plane_begin(const struct fbd_model *model, const struct instant *at, int index, struct vec e)
 {
-    const double least = evaluation_rounding * size, across = vec_cross(e, w);
-    return vec_sub(w, vec_scale(fmin(fmax(across, -least), least), vec_perp(e)));
+    const struct coupling *coupling = &model->tree->couplings[index];
+    struct coupling_state *state = &at->tree->couplings[index];
+    const struct slip_of_point now = slip_now(coupling, at->tree->links);
+    const double soft = limit_of(model, at, index, NULL, NULL) * coupling->soft,
+                 error = at->tree->tolerance * now.size;
+    state->e = e;
+    state->nu = state->soft = soft;
+    state->slow = fmax(soft_speeds * soft, slow_errors * error);
+    state->across = round_off(16, now.size);
+    state->gently = false;
+}
+
+void plane_aim(const struct fbd_model *model, const struct instant *at, int index)
+{
+    const struct vec u = slip_now(&model->tree->couplings[index], at->tree->links).u;
+    if (vec_norm(u) > 0) plane_begin(model, at, index, vec_scale(1 / vec_norm(u), u));
+}
+
+/* u + nu e, without a part across e that is round-off. */
+static struct vec softened(struct vec u, const struct coupling_state *state)
+{
+    const double along = vec_dot(state->e, u) + state->nu, across = vec_cross(state->e, u);
+    return vec_turn(state->e, (struct vec){along, fabs(across) <= state->across ? 0 : across});
 }
 
 /* The direction of friction, -s w / |w|. */
@@ -140,13 +157,9 @@ void planes_load(const struct fbd_model *model, const struct instant *at)
         if (!plane_slips(tree, at, i)) continue;
         const struct coupling *coupling = &tree->couplings[i];
         const struct slip_of_point now = slip_now(coupling, work->links);
-        const double limit = limit_of(model, at, i, NULL, NULL);
-        const struct vec e = work->couplings[i].e;
-        const double nu = limit * coupling->soft;
-        const struct vec w = resolved(vec_add(now.u, vec_scale(nu, e)), e, work->couplings[i].size);
-        const struct vec n = against(w, e), f = vec_scale(limit, n);
-        work->couplings[i].n = n;
-        work->couplings[i].nu = nu;
+        struct coupling_state *state = &work->couplings[i];
+        state->n = against(softened(now.u, state), state->e);
+        const struct vec f = vec_scale(limit_of(model, at, i, NULL, NULL), state->n);
         push(&work->x[coupling->end[0].link], now.arm[0], f);
         push(&work->x[coupling->end[1].link], now.arm[1], vec_scale(-1, f));
     }
@@ -179,9 +192,9 @@ static void force_along(const struct fbd_model *model, const struct instant *at,
     const struct row *rows = &at->tree->rows[coupling->first_row];
     const struct vec n = direction_of(&at->tree->couplings[index]);
     double d_limit;
-    const double limit = limit_of(model, at, index, along, &d_limit), soft = coupling->soft;
-    const struct vec w = {rows[0].g.x1 + limit * soft, rows[1].g.x1};
-    const struct vec dw = {rows[0].g.d1 + d_limit * soft, rows[1].g.d1};
+    const double limit = limit_of(model, at, index, along, &d_limit);
+    const struct vec w = {rows[0].g.x1 + at->tree->couplings[index].nu, rows[1].g.x1};
+    const struct vec dw = {rows[0].g.d1, rows[1].g.d1};
     const double forward = vec_dot(w, n), turned = forward != 0 ? limit * vec_cross(n, dw) / forward : 0;
     lambda[0] = d_limit * n.x - turned * n.y;
     lambda[1] = d_limit * n.y + turned * n.x;

@@ -7,17 +7,22 @@
  *     stick   u = 0, f a reaction with |f| <= c_s
  *
  * The rows of the coupling are e . u and (k x e) . u, constraints of velocities while the point sticks. While it
- * slips e is the direction of u at the start of a step, and the force is
+ * slips e is the direction of u at the start of the slip, renewed where u has turned by 60 degrees, and the force is
  *
  *     f = -c_k s w / |w|,   w = u + nu e,   s = sign(e . w)
  *
- * with a negligible speed nu, and the part of w across e zero where it is round-off. Without both the direction of u at a
- * start from rest, or shortly before a stop, would be that of round-off, and the stages of an explicit step, however short,
- * would amplify it by c over the acceleration, or by the speed at the start over that at the end. So along a straight path the
- * right-hand side continues smoothly through u = 0, and e . u crosses zero there. With other forces u approaches zero
- * along a curve, whose direction near its end is that of these forces: e . u is zero where u has turned by a right angle
- * as well, and then e is renewed only. In the microseconds of a start an explicit method may still turn u: where that
- * could break other friction away the scene is refused (model/plane_check.c).
+ * with nu the speed that f gives the body in 1e-10 of the run, at a start from rest at least the error of the run, and the part
+ * of w across e zero where it is round-off. Without both the direction of u at a start from rest, or shortly before a stop, would be
+ * that of errors, and the stages of an explicit step, however short, would amplify it by c over the acceleration, or by the
+ * speed at the start over that at the end. So along a straight path the right-hand side continues smoothly through u = 0, and
+ * e . u crosses zero there. With other forces u approaches zero along a curve, whose direction near its end is that of these
+ * forces: e . u is zero where u has turned by a right angle as well, and then e is renewed only.
+ *
+ * A point whose force reaches its limit continuously sets out without an acceleration: its velocity then follows the direction
+ * of the force that it lacks, at a rate c/(m |u|) without bound. Such a start is made by the implicit method where the run may
+ * choose one, and velocities against e below a part of nu do not end it. A point that sets out with a jump, from static to
+ * kinetic friction, has the direction of its acceleration. In the microseconds of a start an explicit method may still turn u:
+ * where that could break other friction away the scene is refused (model/plane_check.c).
  *
  * At rest the forces of the points that may stick minimize 1/2 lambda . W lambda + b . lambda with |lambda_i| <= c_i, by the
  * principle of Gauss with dissipation (numeric/disc_forces.h; J. J. Moreau, in Nonsmooth Mechanics and Applications, Springer
@@ -61,18 +66,19 @@ struct plane_speed {
 };
 struct plane_speed plane_speed(const struct fbd_model *model, const struct tree_work *work, int index);
 
-/* Does a body begin to slip at several points? The directions of their forces then follow that of its motion at rates that
- * are unlimited. */
+/* Does a point begin to slip without an acceleration of its own, or a body at several points? The directions of their forces
+ * then follow that of the motion at rates that are unlimited. */
 bool planes_set_out(struct fbd_state *state);
 
 /* Are both couplings points of one body on one plane? */
 bool planes_are_one(const struct tree *tree, int one, int other);
 
-/* Let a point begin to slip with a velocity along both rows. */
-void plane_set_out(struct fbd_state *state, int pair, struct vec along);
+/* Let a point begin to slip with a velocity along both rows; `gently`: without an acceleration of its own. */
+void plane_set_out(struct fbd_state *state, int pair, struct vec along, bool gently);
 
-/* Direct e along that velocity. */
-void plane_aim(const struct fbd_model *model, struct tree_work *work, int index);
+/* Let the path of a point begin in the direction e, or in that of its velocity, with nu of its speeds at the instant. */
+void plane_begin(const struct fbd_model *model, const struct instant *at, int index, struct vec e);
+void plane_aim(const struct fbd_model *model, const struct instant *at, int index);
 
 /* Decide all of them at an evaluated state; true when the modes stay as they are. Sets state->holds when memory is
  * out. */

@@ -35,6 +35,7 @@ static bool moves(const struct fbd_state *state, const struct decided *decided, 
     const struct instant at = state_instant(state);
     if (friction_is_never(mode_of(state, pair))) return true;
     if (decided && (state->slip[pair] == stick || state->slip_rests[pair])) return false;
+    if (decided && state->tree->couplings[index].gently) return true;
     return plane_speed(state->model, state->tree, index).slip >
            coupling_slip_rounding(state->model, &at, index);
 }
@@ -45,11 +46,12 @@ static bool follow(struct fbd_state *state, const struct decided *decided, int p
     const int index = mode_of(state, pair)->coupling;
     const struct vec before = state->tree->couplings[index].e;
     const bool same = state->slip[pair] == slip_plus;
+    const struct instant at = state_instant(state);
     const bool slow =
-        plane_speed(state->model, state->tree, index).slip <= soft_speeds * state->tree->couplings[index].nu;
+        plane_speed(state->model, state->tree, index).slip <= state->tree->couplings[index].slow;
     if (decided && same && slow) return true;
     state->slip[pair] = slip_plus;
-    plane_aim(state->model, state->tree, index);
+    plane_aim(state->model, &at, index);
     return same && vec_norm(vec_sub(before, state->tree->couplings[index].e)) <= negligible_sum;
 }
 
@@ -143,10 +145,25 @@ static void set_radii(struct at_rest *rest)
         rest->radius[i] = friction_at(rest->state->model, rest->pair[i], &rest->at, rest->state->slots).limit;
 }
 
-void plane_set_out(struct fbd_state *state, int pair, struct vec along)
+void plane_set_out(struct fbd_state *state, int pair, struct vec along, bool gently)
 {
-    struct vec *e = &state->tree->couplings[mode_of(state, pair)->coupling].e;
-    if (vec_norm(along) > 0) *e = vec_turn(*e, vec_scale(1 / vec_norm(along), along));
+    const struct instant at = state_instant(state);
+    const int index = mode_of(state, pair)->coupling;
+    const struct vec e = state->tree->couplings[index].e;
+    if (vec_norm(along) > 0)
+        plane_begin(state->model, &at, index, vec_turn(e, vec_scale(1 / vec_norm(along), along)));
+    struct coupling_state *starts = &state->tree->couplings[index];
+    starts->nu =
+        fmax(starts->soft, state->tree->tolerance * plane_speed(state->model, state->tree, index).size);
+    starts->gently = gently;
+}
+
+/* The acceleration of point i by its own force. */
+static struct vec own_acceleration(const struct at_rest *rest, int i)
+{
+    const double *W = rest->W + 4 * i * rest->count + 2 * i;
+    const struct vec f = rest->problem.f[i];
+    return (struct vec){W[0] * f.x + W[1] * f.y, W[2 * rest->count] * f.x + W[2 * rest->count + 1] * f.y};
 }
 
 /* Set the mode and direction of point i; true when the mode stays. */
@@ -154,11 +171,13 @@ static bool set_mode(struct at_rest *rest, int i, const struct decided *decided)
 {
     struct fbd_state *state = rest->state;
     const int pair = rest->pair[i], before = state->slip[pair];
-    const struct vec a = disc_forces_by_others(&rest->problem, (size_t)i);
-    const struct vec way = vec_norm(rest->problem.f[i]) > 0 ? vec_scale(-1, rest->problem.f[i]) : a;
+    const struct vec by_others = disc_forces_by_others(&rest->problem, (size_t)i),
+                     a = vec_add(by_others, own_acceleration(rest, i));
+    const bool gently = vec_norm(a) <= distinct_part * vec_norm(by_others);
+    const struct vec way = !gently ? a : vec_scale(-1, rest->problem.f[i]);
     const bool slips = rest->problem.slips[i] || (decided && decided->slips[pair]);
     state->slip[pair] = slips ? slip_plus : stick;
-    if (slips) plane_set_out(state, pair, way);
+    if (slips) plane_set_out(state, pair, way, gently);
     return state->slip[pair] == before;
 }
 
@@ -204,8 +223,7 @@ void planes_aim(struct fbd_state *state)
     const struct instant at = state_instant(state);
     tree_move(state->model, &at);
     for (int i = 0; i < state->model->tree->coupling_count; i++)
-        if (state->model->tree->couplings[i].kind == constraint_plane)
-            plane_aim(state->model, state->tree, i);
+        if (state->model->tree->couplings[i].kind == constraint_plane) plane_aim(state->model, &at, i);
 }
 
 void plane_unstick(struct fbd_state *state, int pair)
@@ -214,7 +232,7 @@ void plane_unstick(struct fbd_state *state, int pair)
     const struct instant at = state_instant(state);
     const double slip = plane_speed(state->model, state->tree, index).slip;
     if (state->slip[pair] != stick || slip <= coupling_slip_rounding(state->model, &at, index)) return;
-    plane_aim(state->model, state->tree, index);
+    plane_aim(state->model, &at, index);
     state->slip[pair] = slip_plus;
 }
 
@@ -223,16 +241,17 @@ static bool sets_out(const struct fbd_state *state, int index)
     const struct coupling *coupling = &state->model->tree->couplings[index];
     return coupling->kind == constraint_plane && state->slip[coupling->pair] != stick &&
            !coupling_is_gone(state->tree, coupling) &&
-           plane_speed(state->model, state->tree, index).slip <=
-               soft_speeds * state->tree->couplings[index].nu;
+           plane_speed(state->model, state->tree, index).slip <= state->tree->couplings[index].slow;
 }
 
 bool planes_set_out(struct fbd_state *state)
 {
     const struct tree *tree = state->model->tree;
     bool any = false;
-    for (int i = 0; i < tree->coupling_count; i++)
+    for (int i = 0; i < tree->coupling_count; i++) {
+        any |= sets_out(state, i) && state->tree->couplings[i].gently;
         for (int j = 0; j < i; j++)
             any |= planes_are_one(tree, i, j) && sets_out(state, i) && sets_out(state, j);
+    }
     return any;
 }

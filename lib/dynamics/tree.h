@@ -118,24 +118,26 @@ struct tree_work {
     double *scale;                       /* unknowns: largest possible diagonals, see constraint_solve.c */
     double damping;         /* of a projection: relative squares of slopes below this are damped out */
     double accuracy;        /* relative, of projected coordinates */
+    double tolerance;       /* of the run, relative; 0 without one */
     bool projecting;        /* the system is set up for a projection: no friction */
     bool tentative;         /* modes are tried: a motion without inertia keeps some of the added one */
     bool placing;           /* a projection: inertias that are added are part of its metric */
     bool settling_down;     /* contacts are projected by their gaps only, without sticking friction */
     struct tree_loop *loop; /* of three links, if that is the scene, or NULL: see tree_loop.h */
     bool placed;            /* the places of the unknowns are final: there are no modes */
-    bool apart;             /* masses differ so much that solutions are refined by accelerations */
-    bool symmetric;         /* there is no friction in the system: it has been assembled by pushes */
-    bool direct;            /* factored without a shift: its solution needs no corrections */
-    bool shared;            /* indeterminate forces have been distributed, see rest_system.h */
-    double shared_size;     /* then: the largest force before that, as the scale of rounding */
-    bool kept;              /* couplings_keep: sides of lines do not change */
-    bool complete;          /* A and F of the links are final, see tree_complete */
-    bool rates_only;        /* only the accelerations of the joints are required */
-    double fastest;         /* the speed of the fastest link; negative: not yet computed, see constraint.c; */
-    double spin;            /* then with the largest angular speed */
-    double *borne;          /* count, if there are contacts: largest acceleration by one force */
-    int *life;              /* of each lifetime of the scene (scene/loads.h): enum life */
+    bool
+        apart; /* solutions are refined by accelerations: masses differ much, or points on planes may be close */
+    bool symmetric;     /* there is no friction in the system: it has been assembled by pushes */
+    bool direct;        /* factored without a shift: its solution needs no corrections */
+    bool shared;        /* indeterminate forces have been distributed, see rest_system.h */
+    double shared_size; /* then: the largest force before that, as the scale of rounding */
+    bool kept;          /* couplings_keep: sides of lines do not change */
+    bool complete;      /* A and F of the links are final, see tree_complete */
+    bool rates_only;    /* only the accelerations of the joints are required */
+    double fastest;     /* the speed of the fastest link; negative: not yet computed, see constraint.c; */
+    double spin;        /* then with the largest angular speed */
+    double *borne;      /* count, if there are contacts: largest acceleration by one force */
+    int *life;          /* of each lifetime of the scene (scene/loads.h): enum life */
 };
 
 /* A load or constraint acts from its begin to its end. */

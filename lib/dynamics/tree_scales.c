@@ -44,7 +44,7 @@ static const double masses_near = 1e3;
 void tree_set_scales(const struct tree *tree, struct tree_work *work)
 {
     const double apart = fmax(1, tree->mass_ratio / masses_near);
-    work->apart = apart > 1;
+    work->apart = apart > 1 || tree->plane_count > 0;
     double most = 0, lightest = DBL_MAX;
     for (int i = 0; i < tree->coupling_count; i++) {
         int first = tree->couplings[i].first_row, end = first + tree->couplings[i].row_count;

@@ -65,7 +65,7 @@ static void give(struct fbd_state *state, const struct rest_margin *margin, int 
         else
             forced[pair] = state->slip[pair] = margin->gives[pair];
         if (state->model->plan.modes[pair].kind == mode_plane)
-            plane_set_out(state, (int)pair, margin->aims[pair]);
+            plane_set_out(state, (int)pair, margin->aims[pair], true);
     }
 }
 

@@ -57,13 +57,17 @@ static double short_of_side(const struct fbd_state *state, int pair, double v)
 static void calm_beginning(struct watchers *watchers, const struct fbd_state *state, size_t pair, double step)
 {
     const double band = slip_band, least = least_slip_band, instant = slip_beginning;
+    const struct mode *mode = &state->model->plan.modes[pair];
     const struct instant at = state_instant(state);
-    if (state->slip[pair] == stick || !mode_is_friction(&state->model->plan.modes[pair])) return;
+    if (state->slip[pair] == stick || !mode_is_friction(mode)) return;
     double along = slip_velocity(state->model, (int)pair, &at), v = fabs(along),
            *fast = &watchers->fast[pair];
     watchers->quiet[pair] = fmax(short_of_side(state, (int)pair, slip_side(state->slip[pair]) * along),
                                  blocked_band(state, (int)pair, v));
     *fast = fmax(*fast, v);
+    if (mode->kind == mode_plane)
+        watchers->quiet[pair] = soft_return * state->tree->couplings[mode->coupling].nu;
+    if (mode->kind == mode_plane) return;
     if (v == 0) *fast = fmax(*fast, speed_to_come(state, (int)pair));
     if (v > 0 && (step > instant * fabs(state->t) || v > least * *fast)) return;
     watchers->quiet[pair] = fmax(watchers->quiet[pair], band * *fast);

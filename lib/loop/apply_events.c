@@ -179,8 +179,19 @@ bool log_user_events(struct run *run, double t)
     return true;
 }
 
-/* `crossing`: an expression changes its branch at the same instant. A force that reaches its limit there may
- * decrease again beyond it, so the forces after the event decide (in settling), not the crossing of the
+/* Does a point on a plane stop, or reach its limit? */
+static bool any_on_plane(const struct run *run, const bool *crossed, enum watcher_kind kind)
+{
+    const struct watcher_set *set = &run->watchers.moving;
+    bool any = false;
+    for (size_t i = 0; crossed && i < set->count; i++)
+        any |= crossed[i] && set->watchers[i].kind == kind &&
+               mode_of(run->state, set->watchers[i].index)->kind == mode_plane;
+    return any;
+}
+
+/* `crossing`: an expression changes its branch at the same instant, or a point on a plane stops. A force that reaches its
+ * limit there may decrease again beyond it, so the forces after the event decide (in settling), not the crossing of the
  * limit, which may be a rounding error. */
 static void happen(struct run *run, const struct watcher *watcher, bool crossing)
 {
@@ -431,8 +442,10 @@ static void apply_once(struct run *run, const bool *timed, const bool *moving)
     const struct plan *plan = &run->model->plan;
     const struct watcher_set *sets[] = {&run->watchers.timed, &run->watchers.moving};
     const bool *crossed[] = {timed, moving};
-    const bool crossing =
-        any_switch(&run->watchers.timed, timed) || any_switch(&run->watchers.moving, moving);
+    const bool crossing = any_switch(&run->watchers.timed, timed) ||
+                          any_switch(&run->watchers.moving, moving) ||
+                          any_on_plane(run, moving, watch_slip_stop) ||
+                          (any_on_plane(run, moving, watch_stick_limit) && planes_stop_slow(run));
     memset(run->decided.branches, 0, ((size_t)plan->branches + 3 * plan->mode_count) * sizeof(bool));
     contacts_begin_events(run);
     rest_held(run);

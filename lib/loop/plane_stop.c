@@ -3,6 +3,7 @@
  * The stop of a point that slips on a plane.
  */
 #include "dynamics/plane_friction.h"
+#include "dynamics/project.h"
 #include "dynamics/tree.h"
 #include "loop/run.h"
 #include "numeric/tolerances.h"
@@ -10,10 +11,8 @@
 /* Is the velocity on a plane within the error of the velocities of which it is the difference? The links are in place. */
 static bool is_slow(const struct run *run, int pair)
 {
-    const double tolerances = 100;
-    const struct plane_speed speed =
-        plane_speed(run->model, run->state->tree, run->model->plan.modes[pair].coupling);
-    return speed.slip <= tolerances * run->options.tolerance * fmax(speed.size, run->watchers.fast[pair]);
+    const int index = run->model->plan.modes[pair].coupling;
+    return plane_speed(run->model, run->state->tree, index).slip <= run->state->tree->couplings[index].slow;
 }
 
 /* Has the velocity on a plane turned by a right angle from the direction in which it is watched? That is renewed
@@ -23,7 +22,7 @@ bool plane_only_turns(struct run *run, int pair)
     const struct instant at = state_instant(run->state);
     tree_move(run->model, &at);
     if (is_slow(run, pair)) return false;
-    plane_aim(run->model, run->state->tree, run->model->plan.modes[pair].coupling);
+    plane_aim(run->model, &at, run->model->plan.modes[pair].coupling);
     return true;
 }
 
@@ -51,4 +50,32 @@ void plane_stop_with(struct run *run, int pair)
         if (!planes_are_one(tree, i, run->model->plan.modes[pair].coupling)) continue;
         if (run->state->slip[other] != stick && is_slow(run, other)) run->state->slip[other] = stick;
     }
+}
+
+/* Does its speed decrease? After state_evaluate(). */
+static bool slows_down(const struct fbd_state *state, int index)
+{
+    const struct row *rows = &state->tree->rows[state->model->tree->couplings[index].first_row];
+    return rows[0].g.x1 * rows[0].g.x2 + rows[1].g.x1 * rows[1].g.x2 < 0;
+}
+
+/* Points that are at rest within the error of the run stop where another one reaches its limit: the direction of their force,
+ * which is that of this error, does not decide on the limit. True if any stops. */
+bool planes_stop_slow(struct run *run)
+{
+    struct fbd_state *state = run->state;
+    const struct tree *tree = run->model->tree;
+    bool any = false;
+    state_evaluate(state);
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const int pair = tree->couplings[i].pair;
+        if (tree->couplings[i].kind != constraint_plane || state->slip[pair] == stick ||
+            coupling_is_gone(state->tree, &tree->couplings[i]) || state->tree->couplings[i].gently)
+            continue;
+        if (!is_slow(run, pair) || !slows_down(state, i)) continue;
+        state->slip[pair] = stick;
+        any = true;
+    }
+    if (any) state_project_velocity(state, false);
+    return any;
 }

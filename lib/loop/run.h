@@ -479,5 +479,6 @@ void run_fail(struct run *run, fbd_outcome outcome, const char *format, ...)
 bool plane_only_turns(struct run *run, int pair);
 void plane_stop_with(struct run *run, int pair);
 void plane_drop_rounding(struct run *run, int pair);
+bool planes_stop_slow(struct run *run);
 
 #endif

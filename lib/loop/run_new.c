@@ -74,6 +74,7 @@ static bool make_run(struct run *run, const struct state_start *begin)
     run->work.y = ARENA_ARRAY(memory, 5 * size + roundoff_size(run->model), double);
     if (!run->state || !run->during || !run->work.y || !run_make_scans(run)) return false;
     run->state->tree->accuracy = run->during->tree->accuracy = projected_accuracy(&run->options);
+    run->state->tree->tolerance = run->during->tree->tolerance = run->options.tolerance;
     if (!poles_init(&run->poles, run->model, memory)) return false;
     if (!coupled_scales_init(&run->mechanisms, run->model, memory)) return false;
     run->work.f = run->work.y + size;

@@ -1,8 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  *
- * Newton's method for the accelerations with f_i = -c_i a_i/sqrt(|a_i|^2 + e^2), with e from their size down to round-off; then
- * relaxation, disc by disc, which is exact: each is a problem of two unknowns, W_ii + s 1 with s >= 0 such that |f_i| = c_i.
- * Alone it converges slowly where points share forces near the limit that they bear together.
+ * A primal-dual interior point method (S. J. Wright, Primal-Dual Interior-Point Methods, SIAM 1997): with g_i = f_i/c_i, and
+ * W, b and the accelerations relative to the largest b_i, the conditions
+ *
+ *     W g + b + l_i g_i = 0,    s_i + (|g_i|^2 - 1)/2 = 0,    l_i s_i = mu,    l_i, s_i > 0
+ *
+ * are solved by Newton's method while mu decreases to zero. Its matrices are positive definite, whatever W. Then relaxation, disc
+ * by disc, removes the remainder of mu: each disc is a problem of two unknowns, W_ii + s 1 with s >= 0 such that |f_i| = c_i. Alone
+ * it converges slowly where points share forces near the limit that they bear together.
  */
 #include "numeric/disc_forces.h"
 
@@ -11,93 +16,121 @@
 #include "numeric/lu.h"
 #include "numeric/tolerances.h"
 
-/* ---- smooth */
+/* ---- all discs */
 
-struct smooth {
+struct interior {
     const struct disc_problem *of;
-    size_t n; /* 2 count */
-    double e;
-    double *a, *trial, *R, *step, *J;
+    size_t n;    /* 2 count */
+    double size; /* of c_i b_i */
+    double mu, least;
+    double *g, *step, *l, *s, *J; /* n; n; count; count; n x n */
 };
 
-/* Set the forces at accelerations a and R = a - b - W f; returns its square. */
-static double set_residual(const struct smooth *smooth, const double *a)
+/* Entry p, q of the scaled W. */
+static double response(const struct interior *in, size_t p, size_t q)
 {
-    const struct disc_problem *of = smooth->of;
-    double square = 0;
-    for (size_t i = 0; i < of->count; i++) {
-        const struct vec own = {a[2 * i], a[2 * i + 1]};
-        of->f[i] = vec_scale(-of->c[i] / hypot(vec_norm(own), smooth->e), own);
-    }
-    for (size_t p = 0; p < smooth->n; p++) {
-        const double *W = of->W + p * smooth->n;
-        double sum = a[p] - of->b[p];
-        for (size_t j = 0; j < of->count; j++) sum -= W[2 * j] * of->f[j].x + W[2 * j + 1] * of->f[j].y;
-        smooth->R[p] = sum;
-        square += sum * sum;
-    }
-    return square;
+    const double *c = in->of->c;
+    return c[p / 2] * c[q / 2] * in->of->W[p * in->n + q] / in->size;
 }
 
-/* J = 1 + W K, K = c/s (1 - a a/s^2), s = sqrt(|a|^2 + e^2). */
-static void set_slopes(const struct smooth *smooth)
+/* The excess of point i: s + (|g|^2 - 1)/2. */
+static double excess(const struct interior *in, size_t i)
 {
-    const struct disc_problem *of = smooth->of;
-    for (size_t j = 0; j < of->count; j++) {
-        const double x = smooth->a[2 * j], y = smooth->a[2 * j + 1], e = smooth->e;
-        const double square = x * x + y * y + e * e, k = of->c[j] / (square * sqrt(square));
-        const double xx = k * (y * y + e * e), xy = -k * x * y, yy = k * (x * x + e * e);
-        for (size_t p = 0; p < smooth->n; p++) {
-            const double *W = of->W + p * smooth->n + 2 * j;
-            double *J = smooth->J + p * smooth->n + 2 * j;
-            J[0] = (p == 2 * j) + W[0] * xx + W[1] * xy;
-            J[1] = (p == 2 * j + 1) + W[0] * xy + W[1] * yy;
+    const double x = in->g[2 * i], y = in->g[2 * i + 1];
+    return in->s[i] + (x * x + y * y - 1) / 2;
+}
+
+/* The change of l_i along g_i: (mu - l s + l excess + l g . dg)/s. */
+static double change_of(const struct interior *in, size_t i, double along)
+{
+    return (in->mu + in->l[i] * (excess(in, i) - in->s[i] + along)) / in->s[i];
+}
+
+/* The system for dg: W + l + (l/s) g g, and a little against steps of round-off in directions in which nothing yields. */
+static void set_system(const struct interior *in)
+{
+    for (size_t p = 0; p < in->n; p++) {
+        const size_t i = p / 2;
+        double sum = in->of->c[i] * in->of->b[p] / in->size + in->l[i] * in->g[p];
+        for (size_t q = 0; q < in->n; q++) {
+            const double W = response(in, p, q), own = in->l[i] / in->s[i] * in->g[p] * in->g[q];
+            sum += W * in->g[q];
+            in->J[p * in->n + q] = W + (p == q ? in->l[i] + in->least : 0) + (q / 2 == i ? own : 0);
         }
+        in->step[p] = -sum - in->g[p] * change_of(in, i, 0);
     }
 }
 
-/* A step of Newton's method, halved until the residual decreases; false if none is found. */
-static bool newton(const struct smooth *smooth, double square)
+/* The largest part of a step, at most 1, that keeps a number positive. */
+static double part_of(double part, double value, double change)
 {
-    enum { most_halves = 30 };
-    const double enough = 0.1; /* of the decrease along the slope */
-    for (size_t p = 0; p < smooth->n; p++) smooth->step[p] = -smooth->R[p];
-    set_slopes(smooth);
-    if (!lu_decompose(smooth->n, smooth->J, smooth->of->pivot)) return false;
-    lu_solve(smooth->n, smooth->J, smooth->of->pivot, smooth->step);
-    double size = 1;
-    for (int half = 0; half < most_halves; half++, size /= 2) {
-        for (size_t p = 0; p < smooth->n; p++) smooth->trial[p] = smooth->a[p] + size * smooth->step[p];
-        if (!(set_residual(smooth, smooth->trial) <= (1 - enough * size) * square)) continue;
-        for (size_t p = 0; p < smooth->n; p++) smooth->a[p] = smooth->trial[p];
-        return true;
-    }
-    return false;
+    const double most = 0.99; /* of the distance to zero */
+    return value + part * change > (1 - most) * value ? part : most * value / -change;
 }
 
-/* Newton's method at a given e. */
-static void solve(const struct smooth *smooth, double size)
+/* A step of Newton's method; false where its system has no solution. */
+static bool newton(const struct interior *in)
 {
-    enum { most_steps = 30 };
-    const double rounding = evaluation_rounding * size;
-    double square = set_residual(smooth, smooth->a);
-    for (int step = 0; step < most_steps && square > rounding * rounding; step++) {
-        const bool found = newton(smooth, square);
-        square = set_residual(smooth, smooth->a);
-        if (!found) break;
+    double part = 1;
+    set_system(in);
+    if (!lu_decompose(in->n, in->J, in->of->pivot)) return false;
+    lu_solve(in->n, in->J, in->of->pivot, in->step);
+    double *change = in->J; /* no longer needed */
+    for (size_t i = 0; i < in->of->count; i++) {
+        const double along = in->g[2 * i] * in->step[2 * i] + in->g[2 * i + 1] * in->step[2 * i + 1];
+        change[2 * i] = change_of(in, i, along);
+        change[2 * i + 1] = -excess(in, i) - along;
+        part = part_of(part, in->l[i], change[2 * i]);
+        part = part_of(part, in->s[i], change[2 * i + 1]);
     }
+    for (size_t p = 0; p < in->n; p++) in->g[p] += part * in->step[p];
+    for (size_t i = 0; i < in->of->count; i++) {
+        in->l[i] += part * change[2 * i];
+        in->s[i] += part * change[2 * i + 1];
+    }
+    return true;
+}
+
+static double gap_of(const struct interior *in)
+{
+    double sum = 0;
+    for (size_t i = 0; i < in->of->count; i++) sum += in->l[i] * in->s[i];
+    return sum / (double)in->of->count;
+}
+
+/* Is W round-off in the system? */
+static bool is_stiff(const struct interior *in)
+{
+    double most = 0;
+    for (size_t i = 0; i < in->of->count; i++) most = fmax(most, in->l[i] / in->s[i]);
+    return round_off(1000, most) > 1;
 }
 
 static void approach(const struct disc_problem *of)
 {
+    enum { most_steps = 100 };
+    const double decrease = 0.1, least = solved_rounding * solved_rounding;
     const size_t n = 2 * of->count;
-    double *room = of->room, size = 0;
-    struct smooth smooth = {of, n, 0, room, room + n, room + 2 * n, room + 3 * n, room + 4 * n};
+    double *room = of->room;
+    struct interior in = {.of = of, .n = n, .g = room, .step = room + n, .l = room + 2 * n};
+    in.s = in.l + of->count;
+    in.J = in.s + of->count;
     for (size_t p = 0; p < n; p++) {
-        smooth.a[p] = of->b[p];
-        size = fmax(size, fabs(of->b[p]));
+        in.g[p] = 0;
+        in.size = fmax(in.size, of->c[p / 2] * fabs(of->b[p]));
     }
-    for (smooth.e = size; smooth.e > negligible_part * size; smooth.e /= 10) solve(&smooth, size);
+    for (size_t p = 0; in.size > 0 && p < n; p++)
+        in.least = fmax(in.least, negligible_sum * response(&in, p, p));
+    for (size_t i = 0; i < of->count; i++) {
+        in.l[i] = 1;
+        in.s[i] = 0.5;
+    }
+    for (int step = 0; in.size > 0 && step < most_steps && gap_of(&in) > least && !is_stiff(&in); step++) {
+        in.mu = decrease * gap_of(&in);
+        if (!newton(&in)) break;
+    }
+    for (size_t i = 0; i < of->count; i++)
+        of->f[i] = vec_scale(of->c[i], (struct vec){in.g[2 * i], in.g[2 * i + 1]});
 }
 
 /* ---- disc by disc */

@@ -28,7 +28,7 @@ struct disc_problem {
 
 static inline size_t disc_forces_room(size_t count)
 {
-    return 4 * count * count + 8 * count;
+    return 4 * count * count + 6 * count;
 }
 
 void disc_forces_find(const struct disc_problem *of);

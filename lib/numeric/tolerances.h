@@ -43,9 +43,13 @@ static const double distinct_part = 1e-6;
 /* Friction on a plane: the part of a run after which a body that starts from rest has a direction (plane_friction.h). */
 static const double soft_part = 1e-10;
 
-/* The speed, relative to that after this part of a run, up to which its direction is kept: below it the velocity has parts of
- * the same size across that direction. */
-static const double soft_speeds = 1e3;
+/* The speed, relative to that after this part of a run, or to the error of the run, below which the velocity has errors of the
+ * same size across its direction, which is kept there. */
+static const double soft_speeds = 1e3, slow_errors = 1e2;
+
+/* The speed, relative to the larger of both, with which a point may return without a stop: a start from rest has velocities of round-off
+ * in both directions. */
+static const double soft_return = 1e-3;
 
 /* ---- files */
 

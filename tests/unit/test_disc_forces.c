@@ -101,7 +101,7 @@ static void forces_are_those_of_the_minimum(void **unused)
 static void a_body_slips_at_its_limit(void **unused)
 {
     (void)unused;
-    const double near = 1e-5;
+    const double near = 1e-7;
     struct random_numbers numbers = {7302};
     for (int draw = 0; draw < 1000; draw++) {
         const struct body body = draw_body(&numbers);

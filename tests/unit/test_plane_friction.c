@@ -357,6 +357,50 @@ static void motions_have_closed_forms(void **unused)
     checks_end(&checks);
 }
 
+/* Two coins of equal limit on a free turntable under a moment M, alpha = M/(J + m r^2): both slip where
+ * r sqrt(alpha^2 + omega^4) = mu g, and neither sticks again at once. */
+static void check_two_coins(struct checks *checks, struct random_numbers *numbers, const fbd_options *options)
+{
+    const double r = random_between(numbers, 0.1, 0.4), mu = random_between(numbers, 0.2, 0.6);
+    const double m[] = {random_between(numbers, 0.05, 1), random_between(numbers, 0.05, 1)};
+    const double phi[] = {random_between(numbers, -3, 3), random_between(numbers, -3, 3)};
+    const double J = random_between(numbers, 0.02, 0.4), M = random_between(numbers, 0.05, 1);
+    const double alpha = M / (J + (m[0] + m[1]) * r * r), most = mu * g / r;
+    char text[900];
+    if (alpha > 0.9 * most) return; /* they slip at once */
+    const double t = pow(most * most - alpha * alpha, 0.25) / alpha;
+    snprintf(
+        text, sizeof text,
+        "fbd: 1\nplane: horizontal\nbodies:\n  table: {mass: 1, inertia: %.17g, motion: pivot, moments: "
+        "[applied: {value: %.17g}]}\n  a: {mass: %.17g, motion: particle, initial: {x: %.17g, y: %.17g}}\n "
+        " b: {mass: %.17g, motion: particle, initial: {x: %.17g, y: %.17g}}\ncouplings:\n  - "
+        "plane_friction: {name: under_a, body: a, on: table, kinetic: %.17g}\n  - plane_friction: {name: "
+        "under_b, body: b, on: table, kinetic: %.17g}\nsimulate: {until: %.17g}\n",
+        J, M, m[0], r * cos(phi[0]), r * sin(phi[0]), m[1], r * cos(phi[1]), r * sin(phi[1]), mu, mu,
+        1.1 * t);
+    struct trial trial = trial_parse(text);
+    trial_start(&trial, options);
+    trial_finish(&trial);
+    const double error = fmax(accuracy, 100 * options->tolerance) * t;
+    check_close(checks, "a slips", trial_event(&trial, FBD_EVENT_BREAKAWAY, "under_a", 0), t, error);
+    check_close(checks, "b slips", trial_event(&trial, FBD_EVENT_BREAKAWAY, "under_b", 0), t, error);
+    check_that(checks, "two events", fbd_simulation_event_count(trial.simulation) == 2);
+    trial_close(&trial);
+}
+
+static void coins_on_a_turntable_slip_once(void **unused)
+{
+    (void)unused;
+    fbd_options options[] = {FBD_OPTIONS_DEFAULT, FBD_OPTIONS_DEFAULT};
+    struct random_numbers numbers = {7203};
+    struct checks checks = {0};
+    options[1].method = "msbdf";
+    options[1].tolerance = 1e-7;
+    for (int i = 0; i < draws_of(20); i++)
+        for (size_t k = 0; k < 2; k++) check_two_coins(&checks, &numbers, &options[k]);
+    checks_end(&checks);
+}
+
 /* A disc slides towards one that is at rest, and would stop beyond it: the steps may end anywhere, also at that stop. */
 static void a_disc_that_would_stop_beyond_another_strikes_it(void **unused)
 {
@@ -382,6 +426,7 @@ static void a_disc_that_would_stop_beyond_another_strikes_it(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(motions_have_closed_forms),
+                                       cmocka_unit_test(coins_on_a_turntable_slip_once),
                                        cmocka_unit_test(a_disc_that_would_stop_beyond_another_strikes_it)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
