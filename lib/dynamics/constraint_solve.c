@@ -50,10 +50,6 @@ static const double nothing = 1e-15;
 /* The relative pivot below which a row is weak: the shifts of earlier rows add to it. */
 static const double weak_share = 1e-4;
 
-/* The same for scenes with points on planes: two points of a body at a distance d have a direction of relative size d^2, and d
- * may be 1e-4 of the body. */
-static const double shift_of_planes = 1e-11;
-
 /* Does a motion remain that no inertia resists? Its accelerations are not finite then. */
 static bool has_no_inertia(const struct tree *tree, int unknown, double pivot)
 {
@@ -98,10 +94,7 @@ static void factor_row(const struct tree *tree, struct tree_work *work, int j, d
     }
     if (!unknown_is_row(tree, unknown)) return;
     work->rows[unknown].redundant = !movable || !(fabs(pivot) > 10 * shift);
-    const double least = work->projecting ? weak_share / shift_of_rows * shift
-                         : epsilon > 0    ? weak_share * work->scale[unknown]
-                                          : 0;
-    work->rows[unknown].weak = !movable || !(fabs(pivot) > least);
+    work->rows[unknown].weak = !movable || !(fabs(pivot) > weak_share / shift_of_rows * shift);
 }
 
 /* rest = right - S z. */
@@ -186,11 +179,7 @@ void tree_system_refactor(const struct tree *tree, struct tree_work *work)
     work->unmoved = NULL;
     work->direct = factor_as_it_stands(tree, work);
     /* A projection must not change the state by much to satisfy a row without slope. */
-    if (!work->direct)
-        factor_shifted(tree, work,
-                       work->projecting        ? work->damping
-                       : tree->plane_count > 0 ? shift_of_planes
-                                               : shift_of_rows);
+    if (!work->direct) factor_shifted(tree, work, work->projecting ? work->damping : shift_of_rows);
 }
 
 void tree_system_factor(const struct fbd_model *model, const struct instant *at)
