@@ -71,9 +71,10 @@ static void draw_running(struct figure *figure, size_t index)
         draw_circulation(figure, text, coupling.entry, other.body);
         return;
     }
-    const fbd_pose *pose = other.body < 0 ? NULL : &figure->panels[other.body].pose;
-    const struct vec x = pose ? (struct vec){pose->cosine, pose->sine} : (struct vec){1, 0},
-                     e = panel_direction(vec_turn(x, vec_unit(coupling.angle))),
+    struct vec x = {1, 0};
+    if (other.body >= 0)
+        x = (struct vec){figure->panels[other.body].pose.cosine, figure->panels[other.body].pose.sine};
+    const struct vec e = panel_direction(vec_turn(x, vec_unit(coupling.angle))),
                      n = vec_scale(-coupling.side, vec_perp(e)),
                      at = figure_point(figure, end.body, end.point),
                      line = figure_point(figure, other.body, other.point);

@@ -161,9 +161,10 @@ void plane_set_out(struct fbd_state *state, int pair, struct vec along, bool gen
 /* The acceleration of point i by its own force. */
 static struct vec own_acceleration(const struct at_rest *rest, int i)
 {
-    const double *W = rest->W + 4 * i * rest->count + 2 * i;
+    const size_t size = 2 * rest->problem.count;
+    const double *W = rest->W + 2 * (size_t)i * (size + 1);
     const struct vec f = rest->problem.f[i];
-    return (struct vec){W[0] * f.x + W[1] * f.y, W[2 * rest->count] * f.x + W[2 * rest->count + 1] * f.y};
+    return (struct vec){W[0] * f.x + W[1] * f.y, W[size] * f.x + W[size + 1] * f.y};
 }
 
 /* Set the mode and direction of point i; true when the mode stays. */

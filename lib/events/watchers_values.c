@@ -308,7 +308,7 @@ static void evaluate(const struct watchers *watchers, const struct watcher_set *
     struct view view = {.state = state,
                         .at = state_instant_at(state, t.t, y),
                         .rest = t.rest,
-                        .flow = {1, NULL},
+                        .flow = {1, NULL, NULL},
                         .friction = -1};
     if (set != &watchers->timed) set_flow(&view, needs_of_set(set, state, asked));
     int last_kink = -1;
@@ -379,7 +379,7 @@ void watchers_evaluate_timed(const struct watchers *watchers, struct fbd_state *
                              double *values, double *rates, double *roundings)
 {
     const struct watcher_set *set = &watchers->timed;
-    struct view view = {.state = state, .at = state_instant(state), .rest = t.rest, .flow = {1, NULL}};
+    struct view view = {.state = state, .at = state_instant(state), .rest = t.rest, .flow = {1, NULL, NULL}};
     view.at.t = t.t;
     int last_kink = -1;
     for (size_t i = 0; i < set->count; i++) {
