@@ -170,6 +170,7 @@ bool watchers_init(struct watchers *watchers, const struct fbd_model *model, dou
     watchers->fired = ARENA_ARRAY(memory, plan->watch_count + 1, double);
     watchers->most = ARENA_ARRAY(memory, 2 * plan->watch_count + 1, double);
     watchers->fast = ARENA_ARRAY(memory, 2 * plan->mode_count + 1, double);
+    watchers->stops = ARENA_ARRAY(memory, plan->mode_count + 1, int);
     if (memory->failed) return false;
     for (size_t i = 0; i < plan->watch_count; i++) watchers->fired[i] = (double)NAN;
     watchers->width = tolerances * (multistep ? together : 1) * tolerance;

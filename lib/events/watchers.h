@@ -67,6 +67,7 @@ struct watchers {
     double *place;               /* scratch: a state with these zeros, and as many zeros */
     double *fast,
         *quiet; /* per mode: largest driven slip speed; band of it that is ignored, see watchers_arm */
+    int *stops; /* per mode: how many of its stops changed nothing, since it last moved */
     double *most, *band; /* per user event: largest size of the difference; half width of its band, or 0 */
 };
 

@@ -4,7 +4,6 @@
  */
 #include "dynamics/friction.h"
 #include "dynamics/modes.h"
-#include "dynamics/rest_system.h"
 #include "dynamics/tree.h"
 #include "dynamics/tree_driven.h"
 #include "events/watchers.h"
@@ -26,14 +25,15 @@ static double speed_to_come(const struct fbd_state *state, int pair)
     return acceleration_at_limit(state, pair) * fabs(state->t);
 }
 
-/* A band for the speed of a pair at its limit that other constraints block: its acceleration is that left by the shift of dependent
- * rows. It stays at its limit as long as they do. 0 for others. */
-static double blocked_band(const struct fbd_state *state, int pair, double v)
+/* A band for the speed of a pair whose stops change nothing: other constraints keep it where it is, at its limit, and its
+ * velocity is that left by the shift of dependent rows. It ends with a larger speed. */
+static double blocked_band(struct watchers *watchers, const struct fbd_state *state, size_t pair, double v)
 {
-    const struct instant at = state_instant(state);
-    const double limit = acceleration_at_limit(state, pair), band = dependent_row * limit * fabs(state->t);
-    bool still = v <= band && fabs(tree_hold_acceleration(state, &at, pair)) <= dependent_row * limit;
-    return still && rest_is_open(state->model, &at) ? band : 0;
+    enum { some = 3 };
+    if (watchers->stops[pair] == 0) return 0;
+    const double band = dependent_row * speed_to_come(state, (int)pair);
+    if (v > band) watchers->stops[pair] = 0;
+    return watchers->stops[pair] >= some ? band : 0;
 }
 
 /* Twice the speed with which a slipping pair still moves against its slip direction although it accelerates
@@ -63,7 +63,7 @@ static void calm_beginning(struct watchers *watchers, const struct fbd_state *st
     double along = slip_velocity(state->model, (int)pair, &at), v = fabs(along),
            *fast = &watchers->fast[pair];
     watchers->quiet[pair] = fmax(short_of_side(state, (int)pair, slip_side(state->slip[pair]) * along),
-                                 blocked_band(state, (int)pair, v));
+                                 blocked_band(watchers, state, pair, v));
     *fast = fmax(*fast, v);
     if (mode->kind == mode_plane)
         watchers->quiet[pair] = soft_return * state->tree->couplings[mode->coupling].nu;
