@@ -122,6 +122,11 @@ void watchers_set_rounding(const struct watcher_set *set, const struct fbd_state
 /* A part of watchers_arm: set `quiet`. */
 void watchers_calm(struct watchers *watchers, const struct fbd_state *state, double step);
 
+/* After events, of which `moving` crossed: count stops after which friction slips on to the same side. It may be blocked, with
+ * a velocity of round-off. */
+void watchers_count_stops(struct watchers *watchers, const bool *moving, const struct fbd_state *before,
+                          const struct fbd_state *after);
+
 /* A part of watchers_follow: set `held`. */
 void watchers_hold(struct watchers *watchers, const struct fbd_state *state);
 

@@ -94,3 +94,14 @@ void watchers_calm(struct watchers *watchers, const struct fbd_state *state, dou
         if (fabs(v) <= near * band) watchers->quiet[i] = band;
     }
 }
+
+void watchers_count_stops(struct watchers *watchers, const bool *moving, const struct fbd_state *before,
+                          const struct fbd_state *after)
+{
+    const struct watcher_set *set = &watchers->moving;
+    for (size_t i = 0; i < set->count; i++) {
+        const int pair = set->watchers[i].index, side = after->slip[pair];
+        if (!moving[i] || set->watchers[i].kind != watch_slip_stop) continue;
+        watchers->stops[pair] = side != stick && side == before->slip[pair] ? watchers->stops[pair] + 1 : 0;
+    }
+}

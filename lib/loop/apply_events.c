@@ -437,18 +437,6 @@ static void close_up(struct run *run)
     state_evaluate(run->state);
 }
 
-/* A friction that slips on to the same side after its stop may be blocked, with a velocity of round-off. */
-static void count_stops(struct run *run, const bool *moving)
-{
-    const struct watcher_set *set = &run->watchers.moving;
-    for (size_t i = 0; moving && i < set->count; i++) {
-        const int pair = set->watchers[i].index, side = run->state->slip[pair];
-        if (!moving[i] || set->watchers[i].kind != watch_slip_stop) continue;
-        run->watchers.stops[pair] =
-            side != stick && side == run->during->slip[pair] ? run->watchers.stops[pair] + 1 : 0;
-    }
-}
-
 static void apply_once(struct run *run, const bool *timed, const bool *moving)
 {
     const struct plan *plan = &run->model->plan;
@@ -470,7 +458,7 @@ static void apply_once(struct run *run, const bool *timed, const bool *moving)
     if (run->contacts.due) run_contacts(run);
     run->contacts.due = false;
     if (!settle(run) && run->end.outcome == FBD_GOING) run_fail_unsettled(run);
-    count_stops(run, moving);
+    if (moving) watchers_count_stops(&run->watchers, moving, run->during, run->state);
     run_check_drives(run);
     run_check_counts(run);
     log_mode_changes(run, first, moving);
