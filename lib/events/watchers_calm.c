@@ -100,8 +100,8 @@ void watchers_count_stops(struct watchers *watchers, const bool *moving, const s
 {
     const struct watcher_set *set = &watchers->moving;
     for (size_t i = 0; i < set->count; i++) {
-        const int pair = set->watchers[i].index, side = after->slip[pair];
         if (!moving[i] || set->watchers[i].kind != watch_slip_stop) continue;
+        const int pair = set->watchers[i].index, side = after->slip[pair];
         watchers->stops[pair] = side != stick && side == before->slip[pair] ? watchers->stops[pair] + 1 : 0;
     }
 }
