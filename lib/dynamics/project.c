@@ -308,8 +308,20 @@ static double change_since(const struct place *place, const double *y, const dou
     return most;
 }
 
-/* Contacts that stick on both sides of a jammed body have nearly contradictory rows: velocities that satisfy
- * all may be far from velocities with a tiny residual. Then friction slips by that residual. */
+/* Project the velocities. False, with the velocities as they were, where that changes them by more than `most`. */
+static bool project_near(const struct place *place, const double *before, double most)
+{
+    const size_t n = (size_t)place->model->plan.n;
+    project_velocity(place);
+    if (change_since(place, place->y + n, before, arm_length(place)) <= most) return true;
+    memcpy(place->y + n, before, n * sizeof *before);
+    prepare(place);
+    return false;
+}
+
+/* Velocities that satisfy rows which nearly contradict each other may be far from velocities with a tiny residual: of contacts
+ * that stick on both sides of a jammed body, or of a body that slides into a narrow gap. Friction slips by that residual, and
+ * without friction the velocities remain. */
 bool state_project_velocity(struct fbd_state *state, bool assemble)
 {
     struct place place = place_of(state, assemble);
@@ -319,13 +331,11 @@ bool state_project_velocity(struct fbd_state *state, bool assemble)
     prepare(&place);
     double speed = speed_of(&place), off = misfit_of(&place).velocity;
     memcpy(before, state->y + n, bytes);
-    project_velocity(&place);
-    if (state->model->tree->meeting_count > 0 &&
-        change_since(&place, state->y + n, before, arm_length(&place)) >
-            far * fmax(off, round_off(1, speed))) {
-        memcpy(state->y + n, before, bytes);
+    const double most =
+        state->model->tree->meeting_count > 0 ? far * fmax(off, round_off(1, speed)) : HUGE_VAL;
+    if (!project_near(&place, before, most)) {
         place.at.tree->settling_down = true;
-        project_velocity(&place);
+        project_near(&place, before, most);
         place.at.tree->settling_down = false;
         prepare(&place);
     }

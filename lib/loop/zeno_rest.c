@@ -10,6 +10,7 @@
 #include "dynamics/project.h"
 #include "dynamics/tree_system.h"
 #include "loop/contacts.h"
+#include "loop/contacts_points.h"
 #include "loop/energy_guard.h"
 #include "loop/run.h"
 
@@ -37,15 +38,15 @@ static double slow_speed(const struct run *run)
     return slow;
 }
 
-/* Open touching contacts that separate faster than `slow`. */
-static void let_part(struct run *run, double slow)
+/* Open touching contacts that separate faster than `slow`, and those that approach faster: they have an impact of their own. */
+static void open_fast(struct run *run, double slow)
 {
     const struct tree *tree = run->model->tree;
     struct fbd_state *state = run->state;
     for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
         if (coupling->kind != constraint_contact || state->tree->couplings[i].feature == no_feature) continue;
-        if (state->tree->rows[coupling->first_row].g.x1 <= slow) continue;
+        if (fabs(state->tree->rows[coupling->first_row].g.x1) <= slow) continue;
         state->tree->couplings[i].feature = no_feature;
         state->slip[coupling->surface] = slip_plus;
     }
@@ -231,7 +232,7 @@ static void close_within(struct run *run, double share)
     }
     impulse_look(run->state);
     double slow = slow_speed(run);
-    let_part(run, slow);
+    open_fast(run, slow);
     for (int i = 0; i < tree->coupling_count; i++) {
         const struct coupling *coupling = &tree->couplings[i];
         if (coupling->kind != constraint_contact || coupling->pair < 0) continue;
@@ -252,16 +253,36 @@ static void book_place(struct run *run, int meeting, double before)
     run->energy.lowered += change;
 }
 
-/* Stop all closed constraints. */
-static int stop_closed(struct run *run)
+/* Stop all closed constraints by the impulses of the rest of the series. Returns false if no small change of the velocities does. */
+static bool stop_closed(struct run *run)
 {
     int count = contacts_find_strikers(run);
     for (int i = 0; i < count; i++) run->contacts.strikers[i].stays = true;
-    if (!contacts_find_responses(run, count)) return count;
+    if (!contacts_find_responses(run, count)) return true;
     zeno_apply_remaining(run, count, slow_speed(run));
-    state_project_velocity(run->state, false);
+    bool there = state_project_velocity(run->state, false);
     impulse_look(run->state);
-    return contacts_find_strikers(run);
+    return there;
+}
+
+/* Open the contacts that separate and have no summed series of their own. Returns whether there are any. */
+static bool open_separating(struct run *run)
+{
+    const struct tree *tree = run->model->tree;
+    struct fbd_state *state = run->state;
+    bool any = false;
+    for (int i = 0; i < tree->coupling_count; i++) {
+        const struct coupling *coupling = &tree->couplings[i];
+        if (coupling->kind != constraint_contact || state->tree->couplings[i].feature == no_feature ||
+            run->contacts.bounces[coupling->meeting].rests_from < HUGE_VAL ||
+            !(state->tree->rows[coupling->first_row].g.x1 >
+              contacts_no_speed(run, &state->tree->rows[coupling->first_row])))
+            continue;
+        state->tree->couplings[i].feature = no_feature;
+        state->slip[coupling->surface] = slip_plus;
+        any = true;
+    }
+    return any;
 }
 
 /* Place bodies with bounces below the tolerance on their surfaces and stop them by the impulses of the rest of the series. */
@@ -280,7 +301,8 @@ int zeno_rest(struct run *run)
         move_a_little(run);
     }
     book_place(run, last_at_rest(run), above);
-    int count = stop_closed(run);
+    if (!stop_closed(run) && open_separating(run)) stop_closed(run);
+    int count = contacts_find_strikers(run);
     for (int i = 0; i < count; i++) {
         double *v = work->v + (ptrdiff_t)2 * i;
         v[0] = 0;
