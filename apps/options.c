@@ -396,8 +396,7 @@ static bool outputs_agree(const struct options *options)
          (options->html || options->note || options->ledger || options->origin || options->every > 0)) ||
         (stands_still && !responds && (options->csv || options->plot || options->gnuplot)))
         return usage("--csv, --html, --note, --plot, --gnuplot, --ledger, --origin and --every belong to a "
-                     "run; --csv, --plot "
-                     "and --gnuplot also go with --linearize",
+                     "run; --csv, --plot and --gnuplot also go with --linearize",
                      "");
     if ((options->inputs || options->outputs) && !responds)
         return usage("--inputs and --outputs go with --linearize", "");

@@ -28,7 +28,7 @@ typedef struct fbd_linear_plan {
 
 /* Make the system; B, C and D are exact. The inputs cost one compilation of the model. NULL with a note in `errors`:
  * `no-inputs` for a file without any, `unknown-input`, `unknown-output`, `no-derivatives` (a file with `hysteresis`, or an
- * input that is the length of a rope), `not-finite`, or memory is out. The linearisation and its model must outlive it. */
+ * input that a callback computes), `not-finite`, or memory is out. The linearisation and its model must outlive it. */
 FBD_API fbd_linear_system *fbd_linear_system_new(const fbd_linearization *linearization,
                                                  const fbd_linear_plan *plan, fbd_errors *errors);
 FBD_API void fbd_linear_system_free(fbd_linear_system *system);

@@ -51,10 +51,10 @@ FBD_API size_t fbd_state_variables(fbd_state *state, double *values, size_t room
 
 /* Partial derivatives of the accelerations at a state, in its modes, by `count` variables that are coordinates,
  * rates or inputs: `derivatives`, of fbd_model_coordinate_count x count numbers, row by row, in the units of
- * the acceleration divided by that of the variable. An input that is a constant of
- * the model costs a compilation of it; one that states hold (fbd_model_with_callbacks) costs none. With no variables
- * it only finds out whether the scene has derivatives. Returns false with a note in `errors`: `no-derivatives`
- * for a scene with user states, a prescribed motion or `hysteresis`, or memory is out. */
+ * the acceleration divided by that of the variable. Inputs that are constants of the model cost one compilation of
+ * it; those that states hold (fbd_model_with_callbacks) cost none. With no variables it only finds out whether the
+ * scene has derivatives. Returns false with a note in `errors`: `no-derivatives` for a scene with user states, a
+ * prescribed motion, `hysteresis` or an input that a callback computes, or memory is out. */
 FBD_API bool fbd_state_derivatives(fbd_state *state, const size_t *variables, size_t count,
                                    double *derivatives, fbd_errors *errors);
 

@@ -182,18 +182,19 @@ static bool make_columns(const struct building *building, const fbd_state *state
     return fine;
 }
 
-static bool refuse_callbacks(const struct building *building)
+/* False with a note where a callback computes one of the inputs. */
+static bool are_constants(const struct building *building)
 {
     for (size_t k = 0; k < building->system->input_count; k++)
         if (building->model->scene->parameters[building->inputs[k]].call.function)
-            return !refuse_called(building, building->system->inputs[k].name);
-    return false;
+            return refuse_called(building, building->system->inputs[k].name);
+    return true;
 }
 
 static bool make_B(const struct building *building)
 {
     if (plan_remembers(&building->model->plan)) return refuse_inputs(building);
-    if (refuse_callbacks(building)) return false;
+    if (!are_constants(building)) return false;
     struct fbd_model *with = model_with_held_inputs(building->model);
     if (!with) return false;
     fbd_state *state = state_with_held_inputs(building->system->linear->state, with);

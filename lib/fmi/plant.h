@@ -54,9 +54,10 @@ struct plant {
     struct plant_base base;
     fbd_model *model;  /* with the parameters of the base; NULL if not compiled yet */
     bool holds_inputs; /* its inputs belong to states; else they are constants, those of the base */
-    fbd_model *
-        held; /* if they are constants: a model of the same values whose states hold them, for derivatives ... */
-    fbd_state *held_state; /* ... and the state there; NULL: not needed yet */
+    /* if they are constants: a model of the same values whose states hold them, for derivatives, and the state there;
+     * NULL: not needed yet */
+    fbd_model *held;
+    fbd_state *held_state;
     fbd_simulation *simulation;
     fbd_state *state;           /* at t */
     fbd_force_columns *columns; /* of the model; NULL: not needed yet */

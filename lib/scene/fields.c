@@ -443,7 +443,7 @@ static void note_several_keys(struct reader *reader, const struct kinds *kinds, 
     }
     const char *hint = diag_hint(reader->errors, "indent it deeper than `%s`, or write `%s: {%s: ...}`",
                                  kind->key, kind->key, other->key);
-    diag_add(reader->errors, FBD_ERROR, "unknown-key", other->at, hint, "`%s` belongs beside `%s`, not in it",
+    diag_add(reader->errors, FBD_ERROR, "unknown-key", other->at, hint, "`%s` belongs in `%s`, not beside it",
              other->key, kind->key);
 }
 

@@ -19,11 +19,25 @@ struct middle {
     struct vec from, to;
 };
 
+bool section_is_straight(const struct outline_part *shape)
+{
+    const struct vec *corner = shape->corner;
+    if (shape->kind != outline_polygon) return shape->kind == outline_bar;
+    if (shape->count != 4) return false;
+    const struct vec across = vec_sub(corner[2], corner[0]), other = vec_sub(corner[3], corner[1]),
+                     apart = vec_sub(vec_add(corner[0], corner[2]), vec_add(corner[1], corner[3]));
+    const double length = vec_norm(across), near = nine_digits * length;
+    return vec_norm(apart) <= near && fabs(vec_norm(other) - length) <= near;
+}
+
 static bool find_middle(const struct outline_part *shape, struct middle *middle)
 {
     const struct vec a = shape->corner[0], b = shape->corner[1], c = shape->corner[2], d = shape->corner[3];
-    if (shape->kind == outline_bar) *middle = (struct middle){a, b};
-    if (shape->kind != outline_polygon) return shape->kind == outline_bar;
+    if (!section_is_straight(shape)) return false;
+    if (shape->kind == outline_bar) {
+        *middle = (struct middle){a, b};
+        return true;
+    }
     const bool first = vec_norm(vec_sub(b, a)) >= vec_norm(vec_sub(c, b));
     *middle = first ? (struct middle){vec_scale(0.5, vec_add(a, d)), vec_scale(0.5, vec_add(b, c))}
                     : (struct middle){vec_scale(0.5, vec_add(a, b)), vec_scale(0.5, vec_add(d, c))};

@@ -188,8 +188,8 @@ static void add_size_of_mass(struct section_work *work, double mass, double iner
 /* Parts that are not along the axis, as a bob, count as concentrated at their centres. */
 static bool is_lump(const struct part *part)
 {
-    const enum outline_kind kind = outline_of_part(part).kind;
-    return kind != outline_bar && kind != outline_polygon;
+    const struct outline_part shape = outline_of_part(part);
+    return !section_is_straight(&shape);
 }
 
 static void add_lump(struct section_work *work, const struct part *of)

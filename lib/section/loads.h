@@ -40,6 +40,12 @@ struct section_work {
     double alpha, omega;
 };
 
+struct outline_part;
+
+/* Is the shape a rod, or a rectangle, whose mass is uniform along its middle line? The diagonals of a rectangle are equal
+ * and bisect each other. */
+bool section_is_straight(const struct outline_part *shape);
+
 /* Find the axis of the body and its parts; false with a note. */
 bool section_find_axis(struct section_work *work);
 

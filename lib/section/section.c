@@ -158,7 +158,7 @@ static void integrate(fbd_section *section, double values[section_forces])
     jump(section, section->length, values);
 }
 
-/* Beyond the end nothing is left. */
+/* N, V and M vanish beyond the end. */
 static bool closes(struct section_work *work)
 {
     /* at rest: a file with six digits in its positions and forces is in equilibrium */
@@ -171,7 +171,8 @@ static bool closes(struct section_work *work)
         if (fabs(left[k]) <= enough * section->size[k]) continue;
         diag_add(work->errors, FBD_ERROR, "no-balance", work->body->source->at,
                  "a load of this body is not one that a section can show: leave it out by --without",
-                 "the loads on `%s` and its inertia do not balance: beyond its end %s = %.3g is left of %.3g",
+                 "the loads on `%s` and its inertia do not balance: beyond its end %s is %.3g in place of 0, "
+                 "and the loads are %.3g",
                  work->body->name, section_symbols[k], left[k], section->size[k]);
         return false;
     }

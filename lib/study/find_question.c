@@ -107,7 +107,7 @@ static bool take_range(struct fbd_find *find, const fbd_model *model)
 bool find_complete_question(struct fbd_find *find)
 {
     const fbd_find_plan *plan = find->plan;
-    const bool none = !find->condition[0], equation = strchr(find->condition, '=') != NULL;
+    const bool none = !find->condition[0], equation = strpbrk(find->condition, "=<>") != NULL;
     fbd_errors *again =
         plan->statics && !equation ? find->errors : NULL; /* rows give the notes of the file */
     fbd_model *model = fbd_model_parse(find->source, find->source_length, find->name, plan->settings,

@@ -170,7 +170,7 @@ class Tools:
             elif ": " in line:
                 lines.append({"line": line, "answer": []})
         for each in lines:
-            each["agrees"] = bool(each["answer"]) and each["answer"][0].startswith("agrees")
+            each["agrees"] = bool(each["answer"]) and any(answer.startswith(("agrees at ", "holds at ")) for answer in each["answer"])
         return done.text, {"differing": int(done), "lines": lines}
 
     def grade(self, arguments: Json) -> Answer:

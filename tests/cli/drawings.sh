@@ -116,6 +116,20 @@ joined 'a rod given by its ends' statics/cantilever
 check 'has the letter of its length' says '>L = 2 m<' out
 joined 'a belt' hard/stick_slip_belt
 check 'has its speed' says ">v${index}b</tspan></text>" out
+cat >slope.yaml <<'end'
+fbd: 1
+bodies:
+  disc: {shape: disc, radius: 0.1 m, mass: 1 kg, motion: planar, initial: {x: -0.05 m, y: 0.0866025403784 m}, forces: [gravity]}
+ground: {lines: {slope: {along: 30 deg}}}
+couplings: [roll: {body: disc, on: slope, static: 0.4, surface_speed: 1.5 m/s}]
+simulate: {until: 0.5 s}
+end
+sed 's/^ground:.*/  plank: {mass: 4 kg, motion: {slide: {along: 30 deg}}}/; s/on: slope/on: plank/' slope.yaml >plank.yaml
+check 'a slope that runs' exits 0 draw slope.yaml --system
+grep 'line class="axis"' out >arrow
+check 'has one arrow' sh -c '[ "$(wc -l <arrow)" -eq 1 ]'
+check 'a plank whose surface runs' exits 0 draw plank.yaml --system
+check 'has the same arrow' sh -c 'grep -qxF -f arrow out'
 joined 'a conveyor' contact/conveyor_belt
 check 'has it under both bodies' sh -c '[ "$(grep -c ">s</text>" out)" -eq 2 ]'
 joined 'a spring about an axis' rotation/torsional_pendulum

@@ -111,6 +111,9 @@ def test_a_derivation_is_judged_line_by_line():
     (answer,) = calls(("check_derivation", {"model": TEXT, "hand": {"block": ["N = m*g*cos(phi)", "N = m*g"]}}))
     assert answer["structuredContent"]["differing"] == 1
     assert [line["agrees"] for line in answer["structuredContent"]["lines"]] == [True, False]
+    energy = "m*v^2/2 - m*v0^2/2 = work(friction) {} work(gravity) + work(push)"
+    (run,) = calls(("check_derivation", {"model": TEXT, "hand": {"block": [energy.format("+"), energy.format("-")]}}))
+    assert [line["agrees"] for line in run["structuredContent"]["lines"]] == [True, False]
     (unknown,) = calls(("check_derivation", {"model": TEXT, "hand": {"block": ["N = m*foo"]}}))
     assert unknown["isError"] and unknown["structuredContent"]["notes"][0]["id"] == "unknown-name"
 

@@ -447,6 +447,9 @@ static void bodies_without_sections(void **unused)
     expect("{mass: 1, motion: particle}", "no-section");
     expect("{mass: 1, inertia: 2, motion: planar}", "no-section");
     expect("{shape: disc, mass: 1, radius: 1, motion: planar}", "no-section");
+    expect("{shape: polygon, mass: 1, corners: [[0, 0], [-1, -2], [1, -2]], motion: pivot}", "no-section");
+    expect("{shape: polygon, mass: 1, corners: [[0, 0], [4, 0], [4, 1], [0, 2]], motion: pivot}",
+           "no-section");
     expect("{parts: {a: {shape: rod, mass: 1, from: [0, 0], to: [1, 0]}, b: {shape: rod, mass: 1, from: [0, "
            "0], to: "
            "[0, 1]}}, motion: planar}",

@@ -9,7 +9,7 @@ function sayChecked(...said) {
   element("live-checked").textContent = phrase(...said);
 }
 
-// Ask the library about the text of the editor; its errors are shown, and else show(the value under `key`).
+// Call the library with the texts; show the errors of its answer, or showAnswer(the value under `key`) where there are none.
 function requestCheck(call, texts, key, showAnswer) {
   checker.text = editor.value;
   element("live-verdict").replaceChildren();
@@ -18,7 +18,7 @@ function requestCheck(call, texts, key, showAnswer) {
   checker.client = checker.client || makeClient(() => {});
   checker.client.failed = (message) => sayChecked("live-check-failed", message);
   checker.client.request(call, texts, (answer) => {
-    const found = JSON.parse(answer || "{\"errors\":[],\"\":null}"), wrong = found.errors.filter(({ severity }) => severity === "error");
+    const found = JSON.parse(answer || "{\"errors\":[]}"), wrong = found.errors.filter(({ severity }) => severity === "error");
     if (found[key] && !wrong.length) { showAnswer(found[key]); return; }
     sayChecked("live-unchecked");
     element("live-verdict").replaceChildren(...wrong.map(noteItem));

@@ -74,7 +74,7 @@ function takePulled([made, controls, motion]) {
 }
 
 // Run the text with the pull so far; the hand stays where it is until `until`.
-function askForPull(until, rows) {
+function requestPull(until, rows) {
   const { text, body, point, stiffness, grab: from } = pull, { pin, name } = run.bodies[body];
   bench.since = performance.now();
   bench.coster?.stop();
@@ -93,7 +93,7 @@ function pullFurther() {
   if (Math.hypot(pull.at[0] - last[1], pull.at[1] - last[2]) * view.scale < 1) return;
   if (at > last[0]) pull.path.push([at, last[1], last[2]]);
   pull.path.push([at + step, ...pull.at]);
-  askForPull(run.end, rowsUnderWay);
+  requestPull(run.end, rowsUnderWay);
 }
 
 function stopPull() {
@@ -107,7 +107,7 @@ function letGo() {
   if (!pull.at) return;
   stopPull();
   const until = Math.max(now(), pull.path[pull.path.length - 1][0]);
-  if (pull.path.length > 1) askForPull(until, 0);
+  if (pull.path.length > 1) requestPull(until, 0);
   pick("");
 }
 
